@@ -7,7 +7,7 @@
 namespace {
 
 using boresight::plant_family;
-using boresight::stable_law;
+using boresight::stable_controller;
 
 void plant_response(benchmark::State& state) {
   const auto problem = plant_family(static_cast<int>(state.range(0)));
@@ -23,7 +23,7 @@ void evaluate(benchmark::State& state) {
   auto evaluator =
       boresight::design::make_evaluator(plant_family(static_cast<int>(state.range(0))));
   const bool gradients = state.range(1) != 0;
-  for (auto _ : state) benchmark::DoNotOptimize(evaluator.evaluate(stable_law(), gradients));
+  for (auto _ : state) benchmark::DoNotOptimize(evaluator.evaluate(stable_controller(), gradients));
   state.counters["frequencies"] = static_cast<double>(evaluator.response().frequency.size());
 }
 BENCHMARK(evaluate)->ArgsProduct({{5, 20, 50, 150}, {0, 1}});
@@ -33,7 +33,7 @@ void stability_by_eigenvalues(benchmark::State& state) {
   const auto grid = boresight::plant::frequency_grid(problem.plant, 1e-4, 25.0, 300);
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        boresight::control::stability(problem.plant, stable_law(), problem.delay, grid));
+        boresight::control::stability(problem.plant, stable_controller(), problem.delay, grid));
   }
 }
 BENCHMARK(stability_by_eigenvalues)->Arg(5)->Arg(20);
@@ -43,7 +43,7 @@ void rms_by_lyapunov(benchmark::State& state) {
   const auto filter = boresight::design::fit_wind_filter(problem.wind, problem.gear_ratio);
   for (auto _ : state) {
     benchmark::DoNotOptimize(boresight::control::lyapunov_rms(
-        problem.plant, stable_law(), problem.delay, filter, problem.noise));
+        problem.plant, stable_controller(), problem.delay, filter, problem.noise));
   }
 }
 BENCHMARK(rms_by_lyapunov)->Arg(5)->Arg(20);

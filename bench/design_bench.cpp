@@ -17,7 +17,8 @@ BENCHMARK(tune)->Arg(5)->Unit(benchmark::kMillisecond);
 void verify(benchmark::State& state) {
   const auto problem = boresight::plant_family(static_cast<int>(state.range(0)));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(boresight::design::verify(problem, boresight::stable_law(), {}));
+    benchmark::DoNotOptimize(
+        boresight::design::verify(problem, boresight::stable_controller(), {}));
   }
 }
 BENCHMARK(verify)->Arg(5)->Unit(benchmark::kMillisecond);

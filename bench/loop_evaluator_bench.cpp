@@ -34,18 +34,18 @@ void antenna_loop_evaluation(benchmark::State& state) {
       control::LoopStructure::named(structures.at(static_cast<std::size_t>(state.range(0))));
   auto evaluator = antenna_evaluator();
   reference::RandomNumbers random(41);
-  std::vector<control::ControlLaw> laws;
+  std::vector<control::Controller> controllers;
   double frequencies = 0.0;
-  while (laws.size() < 40) {
-    auto law = reference::random_law(random, structure);
-    if (!evaluator.evaluate(law, false).stable()) continue;
+  while (controllers.size() < 40) {
+    auto controller = reference::random_controller(random, structure);
+    if (!evaluator.evaluate(controller, false).stable()) continue;
     frequencies += static_cast<double>(evaluator.frequencies_used()) / 40.0;
-    laws.push_back(std::move(law));
+    controllers.push_back(std::move(controller));
   }
   std::size_t next = 0;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(evaluator.evaluate(laws[next], true));
-    next = (next + 1) % laws.size();
+    benchmark::DoNotOptimize(evaluator.evaluate(controllers[next], true));
+    next = (next + 1) % controllers.size();
   }
   state.SetLabel(std::string(structures.at(static_cast<std::size_t>(state.range(0)))));
   state.counters["gains"] = static_cast<double>(structure.gains().size());

@@ -40,7 +40,7 @@ plant::AntennaPlant uncertain_antenna(std::uint64_t index) {
 
 design::MonteCarlo study(std::uint64_t count) {
   return {.problem = reference::tracking_problem(),
-          .law = reference::cautious_law(),
+          .controller = reference::cautious_gains(),
           .goals = {},
           .plants = count,
           .plant = uncertain_antenna};
@@ -73,19 +73,19 @@ double arithmetic_seconds(unsigned threads) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void held_gains_ensemble(benchmark::State& state) {
+void fixed_gain_ensemble(benchmark::State& state) {
   const auto threads = static_cast<unsigned>(state.range(0));
   for (auto _ : state) state.SetIterationTime(plants_seconds(plants, threads));
   state.counters["plants"] = static_cast<double>(plants);
 }
-BENCHMARK(held_gains_ensemble)
+BENCHMARK(fixed_gain_ensemble)
     ->Arg(1)
     ->Arg(2)
     ->UseManualTime()
     ->Iterations(1)
     ->Unit(benchmark::kSecond);
 
-// In turn, five times, so that a busy machine is busy for both: the best of each. `share` is the
+// In turn, five times, so that a busy machine is busy for both: the best of each. `fraction` is the
 // speed-up of the plants over that of arithmetic.
 void two_threads_against_arithmetic(benchmark::State& state) {
   constexpr std::uint64_t some = 20000;

@@ -14,23 +14,23 @@
 using namespace boresight;
 
 void print_controllers(const io::Case& stated, const design::ControllerStudy& study) {
-  const design::TunedLaw* best = design::recommended_or(study, design::Fitness::unstable);
-  for (const auto& row : study.tuned.laws) {
+  const design::TunedController* best = design::recommended_or(study, design::Fitness::unstable);
+  for (const auto& row : study.tuned.controllers) {
     std::cout << (&row == best ? "recommended " : "") << design::description_of(row) << ": "
-              << row.beam_rms / millidegree << " mdeg linear, constraints "
-              << (row.goals_met ? "met" : "missed");
+              << row.boresight_rms / millidegree << " mdeg linear, constraints "
+              << (row.constraints_met ? "met" : "missed");
     if (row.in_time) {
       std::cout << ", " << row.in_time->rms() / millidegree << " simulated, limit cycle "
-                << row.in_time->hunting / millidegree
+                << row.in_time->limit_cycles / millidegree
                 << (row.left_out() ? ", beyond the budget" : "");
     }
     std::cout << '\n';
   }
   if (best == nullptr) return;
-  const auto& law = best->design.tuning.law;
-  const auto gains = io::GainUnits(stated).texts(law);
+  const auto& controller = best->design.tuning.controller;
+  const auto gains = io::GainUnits(stated).texts(controller);
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    std::cout << law.structure.gains()[i].symbol << ": " << gains[i] << '\n';
+    std::cout << controller.structure.gains()[i].symbol << ": " << gains[i] << '\n';
   }
 }
 

@@ -34,7 +34,7 @@ int main() {
     std::printf("%s: %.4f, 95 %% interval %.3f .. %.3f\n", result.name.c_str(), result.value,
                 result.lower, result.upper);
     for (const auto& input : result.contributions) {
-      std::printf("  %2.0f %% of its variance from: %s\n", 100.0 * input.share,
+      std::printf("  %2.0f %% of its variance from: %s\n", 100.0 * input.fraction,
                   input.input.c_str());
     }
   }

@@ -17,7 +17,7 @@ int main() {
   task.options.starts = 8;
   const design::Design tuned = design::solve(task);
   if (tuned.tuning.status != design::TuningStatus::optimal) {
-    std::fprintf(stderr, "tune_drive: no law meets the goals\n");
+    std::fprintf(stderr, "tune_drive: no controller meets the goals\n");
     return 3;
   }
   if (!tuned.verification.passed) {
@@ -25,20 +25,20 @@ int main() {
     return 4;
   }
 
-  const auto& law = tuned.tuning.law;
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
-    const auto& gain = control::gain_descriptions(law.structure)[i];
-    std::printf("%s (%s): %.5g %s\n", gain.symbol.c_str(), gain.name.c_str(), law.gains[i],
+  const auto& controller = tuned.tuning.controller;
+  for (std::size_t i = 0; i < controller.gains.size(); ++i) {
+    const auto& gain = control::gain_descriptions(controller.structure)[i];
+    std::printf("%s (%s): %.5g %s\n", gain.symbol.c_str(), gain.name.c_str(), controller.gains[i],
                 gain.unit.c_str());
   }
   for (std::size_t i = 0; i < control::loop_breaks.size(); ++i) {
     const auto& margins = tuned.margins.at(i);
-    std::printf("%s: peak of S %.4f, gain margin %.1f dB, phase margin %.1f deg\n",
+    std::printf("%s: Ms %.4f, gain margin %.1f dB, phase margin %.1f deg\n",
                 control::to_string(control::loop_breaks.at(i)).data(),
                 margins.sensitivity.magnitude, 20.0 * std::log10(margins.increasing_gain_margin),
                 margins.phase_margin_deg);
   }
-  std::printf("beam rms at the sky: %.4f mdeg\n", tuned.beam_rms / elevation_axis::mdeg);
+  std::printf("boresight rms at the sky: %.4f mdeg\n", tuned.boresight_rms / elevation_axis::mdeg);
   for (const auto& limit : tuned.tuning.limits) {
     std::printf("limited by: %s\n", limit.description().c_str());
   }

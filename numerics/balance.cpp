@@ -19,9 +19,9 @@ Eigen::VectorXd balancing_scale(const Eigen::MatrixXd& a) {
   Eigen::MatrixXd scaled = a;
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(n);
   // Each pass at least keeps the norm; a handful settle any matrix met.
-  constexpr int most_passes = 100;
+  constexpr int max_passes = 100;
   bool changed = true;
-  for (int pass = 0; changed && pass < most_passes; ++pass) {
+  for (int pass = 0; changed && pass < max_passes; ++pass) {
     changed = false;
     for (Eigen::Index i = 0; i < n; ++i) {
       const double diagonal = scaled(i, i);

@@ -14,8 +14,8 @@ double bracketed_root(const std::function<double(double)>& function, double low,
   // best: the smaller value; other: across the zero; before: the last best.
   double best = high, at_best = at_high, other = low, at_other = at_low, before = low,
          at_before = at_low, step = high - low, last_step = step;
-  constexpr int most_steps = 200;
-  for (int i = 0; i < most_steps && at_best != 0.0; ++i) {
+  constexpr int max_steps = 200;
+  for (int i = 0; i < max_steps && at_best != 0.0; ++i) {
     if ((at_best > 0.0) == (at_other > 0.0)) {
       other = before;
       at_other = at_before;
@@ -76,8 +76,8 @@ double bracketed_maximum(const std::function<double(double)>& function, double l
   const double at_start = function(start);
   double place = start;
   double h = 1e-2 * width;
-  constexpr int most_steps = 12;
-  for (int i = 0; i < most_steps; ++i) {
+  constexpr int max_steps = 12;
+  for (int i = 0; i < max_steps; ++i) {
     const double here = function(place);
     const double back2 = function(place - 2.0 * h), back = function(place - h);
     const double ahead = function(place + h), ahead2 = function(place + 2.0 * h);

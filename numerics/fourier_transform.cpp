@@ -11,8 +11,8 @@
 namespace boresight::numerics {
 namespace {
 
-constexpr Eigen::Index most_samples = Eigen::Index{1} << 28;
-constexpr Eigen::Index most_work = Eigen::Index{1} << 32;
+constexpr Eigen::Index max_samples = Eigen::Index{1} << 28;
+constexpr Eigen::Index max_work = Eigen::Index{1} << 32;
 
 Eigen::Index largest_prime_factor(Eigen::Index number) {
   Eigen::Index largest = 1;
@@ -26,12 +26,12 @@ Eigen::Index largest_prime_factor(Eigen::Index number) {
 }
 
 void check_length(const char* function, Eigen::Index samples) {
-  if (samples < 1 || samples > most_samples) {
+  if (samples < 1 || samples > max_samples) {
     throw InvalidInput(
-        fmt::format("{}: expected 1 to {} samples, found {}", function, most_samples, samples));
+        fmt::format("{}: expected 1 to {} samples, found {}", function, max_samples, samples));
   }
   const Eigen::Index prime = largest_prime_factor(samples);
-  if (prime * samples <= most_work) return;
+  if (prime * samples <= max_work) return;
   throw InvalidInput(
       fmt::format("{}: {} samples have the prime factor {}, with which the transform is slow: "
                   "expected small factors only, such as {} samples have",
@@ -83,9 +83,9 @@ Eigen::VectorXd inverse_fourier_transform(const Eigen::Ref<const Eigen::VectorXc
 }
 
 Eigen::Index fast_transform_length(Eigen::Index samples) {
-  if (samples < 1 || samples > most_samples) {
+  if (samples < 1 || samples > max_samples) {
     throw InvalidInput(fmt::format("fast_transform_length: expected 1 to {} samples, found {}",
-                                   most_samples, samples));
+                                   max_samples, samples));
   }
   if (samples == 1) return 1;
   Eigen::Index best = std::numeric_limits<Eigen::Index>::max();

@@ -291,7 +291,7 @@ void iterate(Eigen::MatrixXd& t, Eigen::MatrixXd& u) {
   constexpr int sweeps_in_vain = 30;
   const double rounding = epsilon * t.norm();
   Index high = t.rows() - 1;
-  const Index most_sweeps = 30 * std::max<Index>(10, t.rows());
+  const Index max_sweeps = 30 * std::max<Index>(10, t.rows());
   Index sweeps = 0;
   int since_deflation = 0;
   while (high > 0) {
@@ -305,10 +305,10 @@ void iterate(Eigen::MatrixXd& t, Eigen::MatrixXd& u) {
       since_deflation = 0;
       continue;
     }
-    if (++sweeps > most_sweeps) {
+    if (++sweeps > max_sweeps) {
       throw NumericalFailure(
           fmt::format("real_schur: QR of a {} x {} matrix did not converge within {} sweeps",
-                      t.rows(), t.cols(), most_sweeps));
+                      t.rows(), t.cols(), max_sweeps));
     }
     sweep_block(t, u, low, high, shifts(t, low, high, ++since_deflation));
   }

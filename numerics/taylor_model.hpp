@@ -63,12 +63,12 @@ inline TaylorModel product(const TaylorModel& a, const TaylorModel& b, double ha
   return result;
 }
 
-/// 1/a; with an infinite rest where a might be 0 in the interval. `least`: a lower bound of |a| on
-/// the interval known otherwise.
-inline TaylorModel inverse(const TaylorModel& a, double half_width, double least = 0.0) {
+/// 1/a; with an infinite rest where a might be 0 in the interval. `minimum`: a lower bound of |a|
+/// on the interval known otherwise.
+inline TaylorModel inverse(const TaylorModel& a, double half_width, double minimum = 0.0) {
   const double h = half_width;
   const double floor = std::max(
-      least, magnitude(a.value) - h * (magnitude(a.slope) + h * magnitude(a.curvature)) - a.rest);
+      minimum, magnitude(a.value) - h * (magnitude(a.slope) + h * magnitude(a.curvature)) - a.rest);
   if (!(floor > 0.0)) return {0.0, 0.0, 0.0, std::numeric_limits<double>::infinity()};
   const std::complex<double> value = 1.0 / a.value;
   const std::complex<double> square = value * value;

@@ -16,7 +16,7 @@ std::size_t lanes_of_processor() {
   return 2;
 }
 
-std::atomic<std::size_t>& most_lanes_allowed() {
+std::atomic<std::size_t>& max_lanes_allowed() {
   static std::atomic<std::size_t> lanes = widest_clone;
   return lanes;
 }
@@ -25,15 +25,15 @@ std::atomic<std::size_t>& most_lanes_allowed() {
 
 std::size_t register_lanes() {
   static const std::size_t lanes = lanes_of_processor();
-  return std::min(lanes, most_lanes_allowed().load(std::memory_order_relaxed));
+  return std::min(lanes, max_lanes_allowed().load(std::memory_order_relaxed));
 }
 
-NarrowRegisters::NarrowRegisters(std::size_t most_lanes) {
-  most_lanes_allowed() = std::min(widest_clone, most_lanes);
+NarrowRegisters::NarrowRegisters(std::size_t max_lanes) {
+  max_lanes_allowed() = std::min(widest_clone, max_lanes);
 }
 
 NarrowRegisters::~NarrowRegisters() {
-  most_lanes_allowed() = widest_clone;
+  max_lanes_allowed() = widest_clone;
 }
 
 }  // namespace boresight::numerics

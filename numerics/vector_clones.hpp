@@ -34,7 +34,7 @@ std::size_t register_lanes();
 /// that it makes no difference to their results. One at a time.
 class NarrowRegisters {
  public:
-  explicit NarrowRegisters(std::size_t most_lanes);
+  explicit NarrowRegisters(std::size_t max_lanes);
   ~NarrowRegisters();
   NarrowRegisters(const NarrowRegisters&) = delete;
   NarrowRegisters& operator=(const NarrowRegisters&) = delete;

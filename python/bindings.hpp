@@ -16,7 +16,7 @@ void add_reports(py::module_& module);
 void add_case(py::module_& module);
 void add_identification(py::module_& module);
 void add_plant(py::module_& module);
-void add_control_law(py::module_& module);
+void add_controller(py::module_& module);
 void add_tuning(py::module_& module);
 void add_matching(py::module_& module);
 void add_evaluation(py::module_& module);

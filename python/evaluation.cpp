@@ -30,15 +30,15 @@ struct Evaluation : Found {
 };
 
 Evaluation evaluate(io::Case antenna, const std::vector<std::string>& paths,
-                    const std::vector<std::string>& structures, std::size_t draws, int starts,
-                    bool time_domain, std::uint64_t seed, unsigned threads) {
+                    const std::vector<std::string>& structures, std::size_t random_samples,
+                    int starts, bool time_domain, std::uint64_t seed, unsigned threads) {
   std::vector<io::Proposal> proposals;
   for (const auto& path : paths) proposals.push_back(io::read_proposal(path));
   io::check_proposals(antenna, proposals);
   app::structure_option(antenna, structures);
   app::EvaluateOptions options;
   options.structures = structures;
-  options.draws = draws;
+  options.random_samples = random_samples;
   options.starts = starts;
   options.time_domain = time_domain;
   options.seed = seed;
@@ -61,10 +61,10 @@ Evaluation evaluate(io::Case antenna, const std::vector<std::string>& paths,
 
 // Of the chosen law; nothing without one.
 template <typename Value>
-auto of_law(Value (*value)(const design::CandidateLaw&)) {
+auto of_controller(Value (*value)(const design::CandidateController&)) {
   return [value](const Candidate& candidate) -> std::optional<Value> {
-    const design::CandidateLaw* law = candidate.chosen_law();
-    return law == nullptr ? std::nullopt : std::optional(value(*law));
+    const design::CandidateController* controller = candidate.chosen_controller();
+    return controller == nullptr ? std::nullopt : std::optional(value(*controller));
   };
 }
 
@@ -81,24 +81,28 @@ void add_candidate(py::module_& module) {
       .def_property_readonly("fit", &Candidate::feasible,
                              "Its controller meets every constraint, passed its verification and "
                              "has no limit cycle beyond the tightest budget")
-      .def_property_readonly("structure",
-                             of_law<std::string>([](const auto& law) { return law.structure; }),
+      .def_property_readonly("structure", of_controller<std::string>([](const auto& controller) {
+                               return controller.structure;
+                             }),
                              "Of the recommended controller; None if no structure is stable")
-      .def_property_readonly(
-          "law", of_law<control::ControlLaw>([](const auto& law) { return law.design.tuning.law; }),
-          "The recommended ControlLaw")
-      .def_property_readonly(
-          "beam_rms", of_law<double>([](const auto& law) { return law.compared_rms(); }),
-          "rad at the sky, over all plants that may be the true one, as the simulation has it")
+      .def_property_readonly("controller",
+                             of_controller<control::Controller>([](const auto& controller) {
+                               return controller.design.tuning.controller;
+                             }),
+                             "The recommended Controller")
+      .def_property_readonly("boresight_rms", of_controller<double>([](const auto& controller) {
+                               return controller.compared_rms();
+                             }),
+                             "rad at the sky, over all ensemble members, as the simulation has it")
       .def_property_readonly(
           "reversal_error", &Candidate::reversal_error,
           "rad at the sky, the largest after a velocity reversal at the tracking rate")
       .def("__repr__", [](const Candidate& candidate) {
-        const design::CandidateLaw* law = candidate.chosen_law();
-        if (law == nullptr)
+        const design::CandidateController* controller = candidate.chosen_controller();
+        if (controller == nullptr)
           return fmt::format("<boresight.Candidate {}: unstable>", candidate.name);
         return fmt::format("<boresight.Candidate {}, {}: {:.4f} mdeg rms>", candidate.name,
-                           law->structure, law->compared_rms() / millidegree);
+                           controller->structure, controller->compared_rms() / millidegree);
       });
 }
 
@@ -120,10 +124,10 @@ void add_evaluation(py::module_& module) {
           "A Candidate for the antenna as it is, then one for each proposal")
       .def_property_readonly(
           "worth_its_cost", &worth_its_cost,
-          "The cheapest of the fit Candidates whose rms over the draws is within "
+          "The cheapest of the fit Candidates whose rms over the samples is within "
           "2 % of the least; None without two that can be compared")
       .def_property_readonly(
-          "chances",
+          "probabilities",
           [](const Evaluation& evaluation) {
             std::vector<std::pair<std::string, double>> chances;
             const auto& section = evaluation.section();
@@ -142,7 +146,8 @@ void add_evaluation(py::module_& module) {
       py::arg("starts") = 0, py::arg("time_domain") = true, py::arg("seed") = 1,
       py::arg("threads") = 0,
       "Tunes the antenna as it is and what each proposal (paths of files, docs/proposals.md) makes "
-      "of it, and compares them over the same draws of what is uncertain. time_domain: laws run on "
+      "of it, and compares them over the same samples of what is uncertain. time_domain: "
+      "controllers run on "
       "the nonlinear antenna, if the case describes it. The result depends on the seed, not on the "
       "threads. Ctrl-C stops it.");
 }

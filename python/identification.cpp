@@ -31,7 +31,7 @@ struct Method {
   Interval motor_to_load_ratio;
 };
 
-Interval interval_of(const identification::ReconciledInertia& one) {
+Interval interval_of(const identification::CombinedInertia& one) {
   return {one.value, one.standard_uncertainty, one.lower, one.upper};
 }
 
@@ -66,7 +66,7 @@ Identification identify(const io::Case& antenna, std::uint64_t seed, unsigned th
     result.methods.push_back({method.name, method.assumes, interval_of(method.reflected_inertia),
                               interval_of(method.motor_to_load_ratio)});
   }
-  if (section.reconciled) result.reflected_inertia = interval_of(*section.reconciled);
+  if (section.combined) result.reflected_inertia = interval_of(*section.combined);
   result.bulk_modulus = interval_of(section.inertia.bulk_modulus);
   result.oil_stiffness = interval_of(section.inertia.oil_stiffness);
   if (!result.report.campaign) return result;

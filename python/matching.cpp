@@ -41,11 +41,11 @@ design::MatchTimeRuns time_runs_of(const std::string& name) {
 }
 
 Matching match(io::Case antenna, const std::vector<std::string>& structures, int points,
-               double most_disks, int starts, bool robust, bool variants,
+               double max_disks, int starts, bool robust, bool variants,
                const std::string& time_domain, std::uint64_t seed, unsigned threads) {
   design::MatchOptions options;
   options.points = points;
-  options.most_disks = most_disks;
+  options.max_disks = max_disks;
   options.starts = starts;
   options.time_runs = time_runs_of(time_domain);
   options.robust = robust;
@@ -102,13 +102,13 @@ auto peak_at(std::size_t loop_break) {
 void add_series(py::module_& module) {
   py::class_<MatchSeries>(
       module, "MatchSeries",
-      "One loop structure over all points: arrays with NaN where no law holds its "
+      "One loop structure over all points: arrays with NaN where no controller holds its "
       "goals. Angles rad at the sky.")
       .def_readonly("name", &MatchSeries::name)
-      .def_property_readonly("beam_rms", of_values(&MatchValue::beam_rms), "rad")
+      .def_property_readonly("boresight_rms", of_values(&MatchValue::boresight_rms), "rad")
       .def_property_readonly("wind_rms", of_values(&MatchValue::wind_rms), "rad")
       .def_property_readonly("noise_rms", of_values(&MatchValue::noise_rms), "rad")
-      .def_property_readonly("valve_effort", of_values(&MatchValue::valve_effort),
+      .def_property_readonly("control_effort", of_values(&MatchValue::control_effort),
                              "rad/s, by noise")
       .def_property_readonly("bandwidth", of_values(&MatchValue::bandwidth),
                              "Hz, of the position loop")
@@ -116,16 +116,17 @@ void add_series(py::module_& module) {
       .def_property_readonly("peak_valve_command", peak_at(1), "Largest |S| at the valve command")
       .def_property_readonly("peak_position_loop", peak_at(2), "Largest |S| of the position loop")
       .def_property_readonly(
-          "laws",
+          "controllers",
           [](const MatchSeries& series) {
-            std::vector<std::optional<control::ControlLaw>> laws;
+            std::vector<std::optional<control::Controller>> controllers;
             for (std::size_t i = 0; i < series.values.size(); ++i) {
-              laws.emplace_back();
-              if (series.values[i].found) laws.back() = series.curve.laws[i].law;
+              controllers.emplace_back();
+              if (series.values[i].found)
+                controllers.back() = series.curve.controllers[i].controller;
             }
-            return laws;
+            return controllers;
           },
-          "ControlLaw of each point, or None")
+          "Controller of each point, or None")
       .def_readonly("best", &MatchSeries::best,
                     "Index of the point of least boresight rms, or None")
       .def_property_readonly(
@@ -172,7 +173,8 @@ void add_matching(py::module_& module) {
       "Tunes every loop structure at every number of flywheel disks, evenly spaced from 0 to "
       "most_disks (0: as the case has it), beside ratio 1 and as built. robust: over all "
       "ensemble members, else on the case's alone. variants: also what moves the optimum. "
-      "time_domain: where laws run on the nonlinear antenna, 'none', 'few' or 'all'. The result "
+      "time_domain: where controllers run on the nonlinear antenna, 'none', 'few' or 'all'. The "
+      "result "
       "depends on the seed, not on the threads. Ctrl-C stops it.");
 }
 

@@ -20,7 +20,7 @@ PYBIND11_MODULE(boresight, module) {
   python::add_case(module);
   python::add_identification(module);
   python::add_plant(module);
-  python::add_control_law(module);
+  python::add_controller(module);
   python::add_tuning(module);
   python::add_matching(module);
   python::add_evaluation(module);

@@ -58,10 +58,10 @@ void add_plant(py::module_& module) {
       .def_readonly("damping_ratio", &PlantMode::damping_ratio)
       .def_readonly("description", &PlantMode::description, "What moves most")
       .def_readonly("participation", &PlantMode::participation, "Of what moves most, 0 to 1")
-      .def_readonly("oil_share", &PlantMode::oil_share,
-                    "d ln frequency^2/d ln oil_stiffness: the oil spring's share of its elastic "
+      .def_readonly("oil_fraction", &PlantMode::oil_fraction,
+                    "d ln frequency^2/d ln oil_stiffness: the oil spring's fraction of its elastic "
                     "energy without damping")
-      .def_readonly("gear_share", &PlantMode::gear_share, "The same of the gear spring")
+      .def_readonly("gear_fraction", &PlantMode::gear_fraction, "The same of the gear spring")
       .def("__repr__", [](const PlantMode& mode) {
         return fmt::format("<boresight.Mode {:.4g} Hz, damping {:.4g}: {}>", mode.frequency,
                            mode.damping_ratio, mode.description);

@@ -48,7 +48,7 @@ void add_reports(py::module_& module) {
           [](const Found& found) {
             return py::module_::import("json").attr("loads")(app::to_json(found.report));
           },
-          "The same as a dictionary. Keys end in their unit: 'beam_rms_mdeg'.")
+          "The same as a dictionary. Keys end in their unit: 'boresight_rms_mdeg'.")
       .def(
           "to_text", [](const Found& found) { return app::to_text(found.report); },
           "The report as the program prints it.")

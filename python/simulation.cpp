@@ -55,7 +55,7 @@ std::vector<Record> simulate(const io::Case& antenna, const std::string& test, s
     options.threads = app::all_or(0);
     options.interrupted = stop;
     const auto chosen = app::recommended_controller(designed, options);
-    auto run = app::run_position_test(antenna, test, chosen.law, seed, progress);
+    auto run = app::run_position_test(antenna, test, chosen.controller, seed, progress);
     records.push_back(record_of(app::section_of(std::move(run), antenna, chosen.source)));
     return records;
   });

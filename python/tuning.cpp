@@ -26,7 +26,7 @@
 namespace boresight::python {
 namespace {
 
-using app::TunedLaw;
+using app::TunedController;
 using control::Margins;
 
 struct Tuning : Found {
@@ -69,11 +69,12 @@ Tuning tune(io::Case antenna, const std::vector<std::string>& structures,
   return result;
 }
 
-std::map<std::string, Margins> margins_of(const TunedLaw& law) {
+std::map<std::string, Margins> margins_of(const TunedController& controller) {
   std::map<std::string, Margins> margins;
-  if (!law.stable()) return margins;
+  if (!controller.stable()) return margins;
   for (std::size_t i = 0; i < control::loop_breaks.size(); ++i) {
-    margins.emplace(control::to_string(control::loop_breaks.at(i)), law.design.margins.at(i));
+    margins.emplace(control::to_string(control::loop_breaks.at(i)),
+                    controller.design.margins.at(i));
   }
   return margins;
 }
@@ -96,58 +97,68 @@ void add_margins(py::module_& module) {
           "disk", [](const Margins& margins) { return margins.disk.alpha; },
           "Disk margin alpha (skew 0)")
       .def("__repr__", [](const Margins& margins) {
-        return fmt::format("<boresight.Margins peak of S {:.4g}, gain x {:.4g}, phase {:.4g} deg>",
+        return fmt::format("<boresight.Margins Ms {:.4g}, gain x {:.4g}, phase {:.4g} deg>",
                            margins.sensitivity.magnitude, margins.increasing_gain_margin,
                            margins.phase_margin_deg);
       });
 }
 
-void add_tuned_law(py::module_& module) {
-  py::class_<TunedLaw>(module, "TunedLaw",
-                       "One tuned law, judged. Angles rad at the sky, one axis.")
-      .def_readonly("structure", &TunedLaw::structure)
+void add_tuned_controller(py::module_& module) {
+  py::class_<TunedController>(module, "TunedController",
+                              "One tuned controller, evaluated. Angles rad at the sky, one axis.")
+      .def_readonly("structure", &TunedController::structure)
       .def_property_readonly(
-          "tuned_for", [](const TunedLaw& law) { return std::string(to_string(law.tuned_for)); },
-          "'nominal': the case's plant; 'robust': every plant that may be the true one; 'present': "
+          "tuned_for",
+          [](const TunedController& controller) {
+            return std::string(to_string(controller.tuned_for));
+          },
+          "'nominal': the case's plant; 'robust': every ensemble member; 'present': "
           "not tuned, the gains that the antenna runs on")
-      .def_readonly("wind_speed", &TunedLaw::wind_speed, "m/s, that it is tuned for")
+      .def_readonly("wind_speed", &TunedController::wind_speed, "m/s, that it is tuned for")
       .def_property_readonly(
-          "law", [](const TunedLaw& law) { return law.design.tuning.law; }, "ControlLaw")
+          "controller",
+          [](const TunedController& controller) { return controller.design.tuning.controller; },
+          "Controller")
       .def_property_readonly(
           "gains",
-          [](const TunedLaw& law) -> py::object {
-            return py::cast(law.design.tuning.law).attr("gains");
+          [](const TunedController& controller) -> py::object {
+            return py::cast(controller.design.tuning.controller).attr("gains");
           },
           "By symbol, SI")
-      .def_readonly("beam_rms", &TunedLaw::beam_rms, "rad; NaN without a stable law")
+      .def_readonly("boresight_rms", &TunedController::boresight_rms,
+                    "rad; NaN without a stable controller")
       .def_property_readonly(
-          "wind_rms", [](const TunedLaw& law) { return law.design.wind_rms; },
+          "wind_rms", [](const TunedController& controller) { return controller.design.wind_rms; },
           "rad, the part by wind")
       .def_property_readonly(
-          "noise_rms", [](const TunedLaw& law) { return law.design.noise_rms; },
+          "noise_rms",
+          [](const TunedController& controller) { return controller.design.noise_rms; },
           "rad, the part by the sensors' noise")
       .def_property_readonly(
-          "valve_effort", [](const TunedLaw& law) { return law.design.valve_effort; },
+          "control_effort",
+          [](const TunedController& controller) { return controller.design.control_effort; },
           "rad/s rms of valve command by noise")
       .def_property_readonly("margins", &margins_of,
                              "Margins by loop break: 'rate loop alone', 'valve command', 'position "
-                             "loop'; empty without a stable law")
+                             "loop'; empty without a stable controller")
       .def_property_readonly(
-          "worst_beam_rms",
-          [](const TunedLaw& law) -> std::optional<double> {
-            if (!law.ensemble) return std::nullopt;
-            return law.ensemble->largest_rms;
+          "worst_boresight_rms",
+          [](const TunedController& controller) -> std::optional<double> {
+            if (!controller.ensemble) return std::nullopt;
+            return controller.ensemble->largest_rms;
           },
-          "rad, the largest over the plants that may be the true one")
-      .def_property_readonly("stable", &TunedLaw::stable)
-      .def_readonly("goals_met", &TunedLaw::goals_met)
+          "rad, the largest over the ensemble members")
+      .def_property_readonly("stable", &TunedController::stable)
+      .def_readonly("constraints_met", &TunedController::constraints_met)
       .def_property_readonly(
-          "verified", [](const TunedLaw& law) { return law.design.verification.passed; },
+          "verified",
+          [](const TunedController& controller) { return controller.design.verification.passed; },
           "Independent code agrees: eigenvalues, bracketed peaks, Lyapunov rms")
-      .def("__repr__", [](const TunedLaw& law) {
-        return fmt::format("<boresight.TunedLaw {}, {}, {} m/s: {:.4f} mdeg rms>", law.structure,
-                           to_string(law.tuned_for), law.wind_speed,
-                           law.beam_rms * 180e3 / std::numbers::pi);
+      .def("__repr__", [](const TunedController& controller) {
+        return fmt::format("<boresight.TunedController {}, {}, {} m/s: {:.4f} mdeg rms>",
+                           controller.structure, to_string(controller.tuned_for),
+                           controller.wind_speed,
+                           controller.boresight_rms * 180e3 / std::numbers::pi);
       });
 }
 
@@ -155,18 +166,20 @@ void add_tuned_law(py::module_& module) {
 
 void add_tuning(py::module_& module) {
   add_margins(module);
-  add_tuned_law(module);
+  add_tuned_controller(module);
   py::class_<Tuning, Found>(module, "Tuning", "What tune() found.")
       .def_property_readonly(
-          "laws", [](const Tuning& tuning) { return tuning.section().laws; }, "Every TunedLaw")
+          "controllers", [](const Tuning& tuning) { return tuning.section().controllers; },
+          "Every TunedController")
       .def_property_readonly(
           "best",
-          [](const Tuning& tuning) -> std::optional<TunedLaw> {
-            const TunedLaw* best = recommended_law(tuning.section());
+          [](const Tuning& tuning) -> std::optional<TunedController> {
+            const TunedController* best = recommended_tuned_controller(tuning.section());
             if (best == nullptr) return std::nullopt;
             return *best;
           },
-          "The TunedLaw that every command of the program recommends, by its runs on the nonlinear "
+          "The TunedController that every command of the program recommends, by its runs on the "
+          "nonlinear "
           "antenna where the case has a [simulation]; None if none is fit")
       .def_property_readonly(
           "shortfalls",
@@ -177,7 +190,8 @@ void add_tuning(py::module_& module) {
             }
             return shortfalls;
           },
-          "(what cannot be reached, what comes closest); empty if every wind speed has a law that "
+          "(what cannot be reached, what comes closest); empty if every wind speed has a "
+          "controller that "
           "meets all");
   module.def("tune", &tune, py::arg("case"), py::arg("structures") = std::vector<std::string>{},
              py::arg("wind_speeds") = std::vector<double>{}, py::kw_only(),
@@ -191,7 +205,7 @@ void add_tuning(py::module_& module) {
              "= 0: as the case has it, all; the result depends on the seed, not on the threads. "
              "The program "
              "does the same and then adds the least that any controller could do. Goals that no "
-             "law meets are a result (shortfalls), not an error. Ctrl-C stops it.");
+             "controller meets are a result (shortfalls), not an error. Ctrl-C stops it.");
 }
 
 }  // namespace boresight::python

@@ -24,8 +24,8 @@ inline plant::ResponsePoint with_wind_at_motor(const plant::AntennaPlant& plant,
   point.tachometer_wind = s * motor_angle * drive.tachometer_corner / (s + drive.tachometer_corner);
   point.torque_wind = -oil * s * motor_angle;
   point.encoder_wind = g / (g + b) * motor_angle;
-  point.beam_wind = point.encoder_wind;
-  point.beam_command = point.encoder_command;
+  point.boresight_wind = point.encoder_wind;
+  point.boresight_command = point.encoder_command;
   return point;
 }
 

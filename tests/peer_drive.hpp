@@ -51,9 +51,10 @@ class DriveChannels final : public plant::NonlinearChannels {
       return;
     }
     // v - 5000 |v| deflection/g(v)
-    const double share = 5000.0 * z[3] / level;
-    n[1] = v - std::abs(v) * share;
-    dn_dz(1, 2) = 1.0 - std::copysign(1.0, v) * share + std::abs(v) * share / level * level_slope;
+    const double fraction = 5000.0 * z[3] / level;
+    n[1] = v - std::abs(v) * fraction;
+    dn_dz(1, 2) =
+        1.0 - std::copysign(1.0, v) * fraction + std::abs(v) * fraction / level * level_slope;
     dn_dz(1, 3) = -5000.0 * std::abs(v) / level;
   }
 

@@ -47,7 +47,7 @@ struct PeerDrive {
 struct PeerModes {
   Eigen::VectorXd frequency;  // rad/s
   Eigen::VectorXd damping_ratio;
-  Eigen::VectorXd motor, beam, wind;
+  Eigen::VectorXd motor, boresight, wind;
 };
 
 inline PeerModes peer_modes(Eigen::Index modes) {
@@ -64,7 +64,7 @@ inline PeerModes peer_modes(Eigen::Index modes) {
     result.frequency[i] = two_pi * hertz;
     result.damping_ratio[i] = 0.005 * (1.0 + place);
     result.motor[i] = 0.35 * size * (1.0 + 0.5 * std::cos(1.7 * k));
-    result.beam[i] = 0.50 * size * (1.0 + 0.5 * std::sin(2.3 * k)) * (i % 2 == 0 ? -1.0 : 1.0);
+    result.boresight[i] = 0.50 * size * (1.0 + 0.5 * std::sin(2.3 * k)) * (i % 2 == 0 ? -1.0 : 1.0);
     result.wind[i] =
         0.40 * size * (1.0 + 0.5 * std::cos(0.9 * k + 1.0)) * (i % 3 == 0 ? -1.0 : 1.0);
   }
@@ -89,12 +89,12 @@ inline plant::StateSpace peer_closed_loop(Eigen::Index modes, const PeerGains& g
   const Eigen::Index n = core + 2 * modes;
   // Each signal as a row over the states; tau and u with their direct inputs besides.
   Eigen::RowVectorXd motor_angle = Eigen::RowVectorXd::Zero(n), motor_rate = motor_angle,
-                     beam_angle = motor_angle, wind = motor_angle;
-  motor_angle[th] = motor_rate[om] = beam_angle[th] = 1.0;
+                     boresight_angle = motor_angle, wind = motor_angle;
+  motor_angle[th] = motor_rate[om] = boresight_angle[th] = 1.0;
   wind[w2] = drive.wind_amplitude;
   for (Eigen::Index i = 0; i < modes; ++i) {
     motor_angle[core + 2 * i] = motor_rate[core + 2 * i + 1] = shape.motor[i];
-    beam_angle[core + 2 * i] = shape.beam[i];
+    boresight_angle[core + 2 * i] = shape.boresight[i];
   }
   Eigen::RowVectorXd rate_error = -gains.position_gain * motor_angle;
   rate_error[zp] += gains.position_integral;
@@ -136,7 +136,7 @@ inline plant::StateSpace peer_closed_loop(Eigen::Index modes, const PeerGains& g
     system.b(eta + 1, 1) = shape.wind[i];
   }
   system.c = Eigen::MatrixXd::Zero(2, n);
-  system.c.row(0) = -drive.arcseconds / drive.gear_ratio * beam_angle;
+  system.c.row(0) = -drive.arcseconds / drive.gear_ratio * boresight_angle;
   system.c.row(1) = command;
   system.d = Eigen::MatrixXd::Zero(2, 3);
   system.d(1, 2) = 1.0;
@@ -154,7 +154,7 @@ inline plant::ModalSystem peer_modal_system(Eigen::Index modes, const PeerGains&
   core.inputs = {"n", "t", "d", "motor bend", "motor bend rate", "beam bend"};
   core.outputs = {"y", "u", "motor force", "wind force"};
   enum : Eigen::Index { xv, vv, torque, om, th, omt, zr, zp, w1, w2, states };
-  enum : Eigen::Index { n, t, d, motor, motor_rate, beam, inputs };
+  enum : Eigen::Index { n, t, d, motor, motor_rate, boresight, inputs };
   core.a = Eigen::MatrixXd::Zero(states, states);
   core.b = Eigen::MatrixXd::Zero(states, inputs);
   core.c = Eigen::MatrixXd::Zero(4, states);
@@ -164,7 +164,7 @@ inline plant::ModalSystem peer_modal_system(Eigen::Index modes, const PeerGains&
   core.c.row(1) << 0.0, 0.0, 0.0, 0.0, -krp * kpp, -krp, gains.rate_integral, krp * kpi, 0.0, 0.0;
   core.d(1, motor) = -krp * kpp;
   core.d(1, d) = 1.0;
-  core.c(0, th) = core.d(0, beam) = -drive.arcseconds / drive.gear_ratio;
+  core.c(0, th) = core.d(0, boresight) = -drive.arcseconds / drive.gear_ratio;
   core.c(2, torque) = 1.0;
   core.c(2, om) = core.d(2, motor_rate) = -drive.friction;
   core.c(3, w2) = drive.wind_amplitude;
@@ -196,7 +196,7 @@ inline plant::ModalSystem peer_modal_system(Eigen::Index modes, const PeerGains&
   system.modes.force_shape.resize(modes, 2);
   system.modes.force_shape << shape.motor, shape.wind;
   system.modes.displacement_shape.resize(2, modes);
-  system.modes.displacement_shape << shape.motor.transpose(), shape.beam.transpose();
+  system.modes.displacement_shape << shape.motor.transpose(), shape.boresight.transpose();
   system.modes.forces = {"motor force", "wind force"};
   system.modes.displacements = {"motor bend", "beam bend"};
   system.modes.rates = {"motor bend rate", ""};

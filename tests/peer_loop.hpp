@@ -28,8 +28,8 @@ class PeerChannels {
       pack.damping.set(lane, 2.0 * value(modes.damping_ratio) * w);
       pack.motor_motor.set(lane, value(modes.motor) * value(modes.motor));
       pack.motor_wind.set(lane, value(modes.motor) * value(modes.wind));
-      pack.beam_motor.set(lane, value(modes.beam) * value(modes.motor));
-      pack.beam_wind.set(lane, value(modes.beam) * value(modes.wind));
+      pack.boresight_motor.set(lane, value(modes.boresight) * value(modes.motor));
+      pack.boresight_wind.set(lane, value(modes.boresight) * value(modes.wind));
     }
   }
   explicit PeerChannels(Eigen::Index modes) : PeerChannels(peer_modes(modes)) {}
@@ -60,18 +60,18 @@ class PeerChannels {
     point.tachometer_wind = lag * point.encoder_wind;
     point.torque_command = oil * (valve - s * point.encoder_command);
     point.torque_wind = -oil * s * point.encoder_wind;
-    point.beam_command = total(sum.beam_motor) * force_command;
-    point.beam_wind = total(sum.beam_motor) * force_wind + total(sum.beam_wind);
+    point.boresight_command = total(sum.boresight_motor) * force_command;
+    point.boresight_wind = total(sum.boresight_motor) * force_wind + total(sum.boresight_wind);
     return point;
   }
 
  private:
   struct ModePack {
-    numerics::RealPack stiffness, damping, motor_motor, motor_wind, beam_motor, beam_wind;
+    numerics::RealPack stiffness, damping, motor_motor, motor_wind, boresight_motor, boresight_wind;
   };
   // What the modes of each lane add up to.
   struct ModeSum {
-    numerics::ComplexPack motor_motor, motor_wind, beam_motor, beam_wind;
+    numerics::ComplexPack motor_motor, motor_wind, boresight_motor, boresight_wind;
 
     template <std::size_t width>
     [[gnu::always_inline]] static inline void run(const std::vector<ModePack>& modes,
@@ -81,7 +81,7 @@ class PeerChannels {
       using numerics::part;
       const Real w = frequency, square = frequency * frequency;
       for (std::size_t k = 0; k < numerics::pack_size / width; ++k) {
-        Complex motor_motor{}, motor_wind{}, beam_motor{}, beam_wind{};
+        Complex motor_motor{}, motor_wind{}, boresight_motor{}, boresight_wind{};
         for (const ModePack& mode : modes) {
           const Real real = part<width>(mode.stiffness, k) - square;
           const Real imaginary = part<width>(mode.damping, k) * w;
@@ -89,13 +89,13 @@ class PeerChannels {
           const Complex inverse{real * scale, -imaginary * scale};
           motor_motor = motor_motor + inverse * part<width>(mode.motor_motor, k);
           motor_wind = motor_wind + inverse * part<width>(mode.motor_wind, k);
-          beam_motor = beam_motor + inverse * part<width>(mode.beam_motor, k);
-          beam_wind = beam_wind + inverse * part<width>(mode.beam_wind, k);
+          boresight_motor = boresight_motor + inverse * part<width>(mode.boresight_motor, k);
+          boresight_wind = boresight_wind + inverse * part<width>(mode.boresight_wind, k);
         }
         numerics::set_part(sum.motor_motor, k, motor_motor);
         numerics::set_part(sum.motor_wind, k, motor_wind);
-        numerics::set_part(sum.beam_motor, k, beam_motor);
-        numerics::set_part(sum.beam_wind, k, beam_wind);
+        numerics::set_part(sum.boresight_motor, k, boresight_motor);
+        numerics::set_part(sum.boresight_wind, k, boresight_wind);
       }
     }
   };
@@ -119,7 +119,7 @@ inline double peer_rms(double variance) {
 }
 
 /// The peers' gains as a law: u = krp e_r + kri zr is krp (1 + wi/s), wi = kri/krp.
-inline control::ControlLaw peer_law(const PeerGains& gains) {
+inline control::Controller peer_controller(const PeerGains& gains) {
   return {control::LoopStructure::pi(),
           {gains.rate_gain, gains.rate_integral / gains.rate_gain, gains.position_gain,
            gains.position_integral / gains.position_gain}};

@@ -42,23 +42,23 @@ inline PeerGains peer_gains(const std::vector<double>& logarithm) {
 }
 
 /// From the logarithms of the law's gains, kr, kri/kr, kp, kpi/kp, to those of the peers'.
-inline void to_peer_gradient(const std::array<double, control::most_gains>& by_law, double factor,
-                             double* by_peer_gain) {
-  by_peer_gain[0] = factor * (by_law[0] - by_law[1]);
-  by_peer_gain[1] = factor * by_law[1];
-  by_peer_gain[2] = factor * (by_law[2] - by_law[3]);
-  by_peer_gain[3] = factor * by_law[3];
+inline void to_peer_gradient(const std::array<double, control::max_gains>& by_controller,
+                             double factor, double* by_peer_gain) {
+  by_peer_gain[0] = factor * (by_controller[0] - by_controller[1]);
+  by_peer_gain[1] = factor * by_controller[1];
+  by_peer_gain[2] = factor * (by_controller[2] - by_controller[3]);
+  by_peer_gain[3] = factor * by_controller[3];
 }
 
 inline design::ConstrainedProblem peer_tuning_problem(control::LoopEvaluator& evaluator) {
-  constexpr std::size_t gains = 4, peaks = control::PeakList::most;
+  constexpr std::size_t gains = 4, peaks = control::PeakList::maximum;
   design::ConstrainedProblem problem;
   problem.lower.assign(gains, std::log(1e-3));
   problem.upper.assign(gains, std::log(1e2));
   problem.constraints = peaks;
   problem.evaluate = [&evaluator](const std::vector<double>& point,
                                   design::ConstrainedValues& values) {
-    const auto found = evaluator.evaluate(peer_law(peer_gains(point)), true);
+    const auto found = evaluator.evaluate(peer_controller(peer_gains(point)), true);
     if (found.unstable_closed_loop != 0) return false;
     values.objectives[0] = 0.5 * std::log(found.wind_variance);
     to_peer_gradient(found.wind_log_gradient, 0.5 / found.wind_variance,
@@ -82,36 +82,36 @@ inline std::optional<PeerTuning> tune_peer(Eigen::Index modes,
   evaluator.look_at({false, true, false});
   design::FeasibleSearch search(peer_tuning_problem(evaluator));
   const auto best =
-      search.search_from(search.retreat(logarithms(start), logarithms(peer_tuning_start)));
+      search.search_from(search.backtrack(logarithms(start), logarithms(peer_tuning_start)));
   if (!best) return std::nullopt;
   return PeerTuning{peer_gains(best->point), peer_rms(1.0) * std::exp(best->cost),
                     peer_peak_limit * std::exp(best->violation), search.evaluations()};
 }
 
 /// The same law judged on the dense state space: eigenvalues, Lyapunov's equation, Hamiltonian.
-struct PeerJudgement {
+struct PeerEvaluation {
   double abscissa = 0.0;  // 1/s
   double rms = 0.0;       // arcsec
   double peak = 0.0;      // upper end of its bracket
 };
 
-inline PeerJudgement judge_peer(Eigen::Index modes, const PeerGains& gains) {
+inline PeerEvaluation evaluate_peer(Eigen::Index modes, const PeerGains& gains) {
   const plant::StateSpace closed = peer_closed_loop(modes, gains);
-  PeerJudgement judgement;
-  judgement.abscissa = numerics::spectral_abscissa(closed.a);
-  if (!(judgement.abscissa < 0.0)) return judgement;
-  judgement.rms = control::h2_norm(channel(closed, "n", "y")).value;
-  judgement.peak = control::peak_gain(channel(closed, "d", "u")).upper;
-  return judgement;
+  PeerEvaluation plant_evaluation;
+  plant_evaluation.abscissa = numerics::spectral_abscissa(closed.a);
+  if (!(plant_evaluation.abscissa < 0.0)) return plant_evaluation;
+  plant_evaluation.rms = control::h2_norm(channel(closed, "n", "y")).value;
+  plant_evaluation.peak = control::peak_gain(channel(closed, "d", "u")).upper;
+  return plant_evaluation;
 }
 
 /// rms and peak without dense matrices; the abscissa is left out.
-inline PeerJudgement judge_peer_by_modes(Eigen::Index modes, const PeerGains& gains) {
+inline PeerEvaluation evaluate_peer_by_modes(Eigen::Index modes, const PeerGains& gains) {
   const auto closed = peer_modal_system(modes, gains);
-  PeerJudgement judgement;
-  judgement.rms = control::spectral_rms(plant::ModalResponse(closed, "n", "y")).rms;
-  judgement.peak = control::peak_gain(closed, "d", "u").upper;
-  return judgement;
+  PeerEvaluation plant_evaluation;
+  plant_evaluation.rms = control::spectral_rms(plant::ModalResponse(closed, "n", "y")).rms;
+  plant_evaluation.peak = control::peak_gain(closed, "d", "u").upper;
+  return plant_evaluation;
 }
 
 }  // namespace boresight::reference

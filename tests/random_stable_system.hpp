@@ -9,11 +9,11 @@
 namespace boresight::reference {
 
 struct RandomSystemOptions {
-  int most_modes = 4;  // pairs or real poles
+  int max_modes = 4;  // pairs or real poles
   Eigen::Index inputs = 1;
   Eigen::Index outputs = 1;
-  double least_damping = 1e-3;
-  double most_damping = 1.0;
+  double min_damping = 1e-3;
+  double max_damping = 1.0;
   /// Each mode's input is scaled by 1e-10 with this probability.
   double nearly_uncontrollable = 0.1;
   bool feedthrough = true;
@@ -23,7 +23,7 @@ struct RandomSystemOptions {
 /// transformation of moderate condition.
 inline plant::StateSpace random_stable_system(RandomNumbers& random,
                                               const RandomSystemOptions& options = {}) {
-  const int modes = random.integer(1, options.most_modes);
+  const int modes = random.integer(1, options.max_modes);
   std::vector<Eigen::Index> sizes;
   Eigen::Index n = 0;
   for (int i = 0; i < modes; ++i) {
@@ -39,7 +39,7 @@ inline plant::StateSpace random_stable_system(RandomNumbers& random,
   Eigen::Index at = 0;
   for (const Eigen::Index size : sizes) {
     const double w = random.log_uniform(0.1, 100.0);
-    const double zeta = random.log_uniform(options.least_damping, options.most_damping);
+    const double zeta = random.log_uniform(options.min_damping, options.max_damping);
     if (size == 2) {
       const double turning = w * std::sqrt(std::max(0.0, 1.0 - zeta * zeta));
       system.a.block<2, 2>(at, at) << -zeta * w, turning, -turning, -zeta * w;

@@ -88,7 +88,7 @@ inline plant::AntennaPlant random_antenna(RandomNumbers& random) {
   specification.locked_rotor_frequency = random.log_uniform(0.8, 4.0);
   specification.gear_damping_ratio = random.log_uniform(0.002, 0.05);
   const int modes = random.integer(1, 6);
-  double wind = 0.0, beam = 0.0;
+  double wind = 0.0, boresight = 0.0;
   for (int i = 0; i < modes; ++i) {
     plant::StructureSpecification::Mode mode;
     mode.frequency = specification.locked_rotor_frequency * random.log_uniform(1.1, 8.0);
@@ -97,11 +97,11 @@ inline plant::AntennaPlant random_antenna(RandomNumbers& random) {
     mode.wind_fraction = random.uniform(-0.2, 1.0);
     mode.beam_weight = random.uniform(-0.5, 1.0);
     wind += mode.wind_fraction;
-    beam += mode.beam_weight;
+    boresight += mode.beam_weight;
     specification.modes.push_back(mode);
   }
   specification.bull_gear_wind_fraction = 1.0 - wind;
-  specification.bull_gear_beam_weight = 1.0 - beam;
+  specification.bull_gear_beam_weight = 1.0 - boresight;
   plant.structure = plant::make_structure(specification);
   return plant;
 }

@@ -71,7 +71,7 @@ std::string gear_remedy(const FailedCheck& failed) {
   return fmt::format(
       "The mode of largest inertia ({}) at {:.4g} Hz instead of {:.4g} Hz would reproduce the "
       "stated value.",
-      entry.id, failed["heaviest mode for it"], entry.value);
+      entry.id, failed["mode of largest inertia for it"], entry.value);
 }
 
 std::string inertia_remainder_sentence(const FailedCheck& failed) {
@@ -211,13 +211,13 @@ std::string structural_predictions_sentence(const FailedCheck& failed) {
                                               "bull-gear-locked ones (structure.mode_frequencies)");
 }
 
-std::string structural_shares_sentence(const FailedCheck& failed) {
+std::string structural_fractions_sentence(const FailedCheck& failed) {
   const auto& entries = failed.check.entries;
-  std::vector<std::string> shares;
+  std::vector<std::string> fractions;
   for (std::size_t i = 0; i + 1 < entries.size(); i += 2) {
-    shares.push_back(fmt::format("a {} of {:.3g} on an inertia fraction of {:.3g}",
-                                 entries[i].id.substr(entries[i].id.rfind('.') + 1),
-                                 entries[i].value, entries[i + 1].value));
+    fractions.push_back(fmt::format("a {} of {:.3g} on an inertia fraction of {:.3g}",
+                                    entries[i].id.substr(entries[i].id.rfind('.') + 1),
+                                    entries[i].value, entries[i + 1].value));
   }
   return fmt::format(
       "A mode of [structure] has most of the wind or boresight participation with little of the "
@@ -225,9 +225,9 @@ std::string structural_shares_sentence(const FailedCheck& failed) {
       "{:.3g} m/s; with fractions equal to those of the inertia, by {:.3g} mdeg. This flexure "
       "dominates the pointing error: take the fractions from a structural model "
       "(structure.modes_file).",
-      fmt::join(shares, " and "), failed["bending by the stated shares"] / millidegree,
+      fmt::join(fractions, " and "), failed["bending by the stated fractions"] / millidegree,
       failed.antenna.wind->design_speed.value,
-      failed["bending by the shares of the inertia"] / millidegree);
+      failed["bending by the fractions of the inertia"] / millidegree);
 }
 
 std::string motors_held_sentence(const FailedCheck& failed) {
@@ -297,7 +297,7 @@ constexpr std::array of_antenna{
     CheckWording{"structural_bound", "structural bound", &structural_bound_sentence},
     CheckWording{"structural_predictions", "structural predictions",
                  &structural_predictions_sentence},
-    CheckWording{"structural_shares", "structural shares", &structural_shares_sentence},
+    CheckWording{"structural_shares", "structural fractions", &structural_fractions_sentence},
     CheckWording{"motors_held", "motors held", &motors_held_sentence},
     CheckWording{"gear_stiffness", "gear stiffness", &gear_stiffness_sentence},
     CheckWording{"ensemble_range", "ensemble range", &ensemble_range_sentence},

@@ -17,15 +17,15 @@ std::string as_written(const design::CheckedEntry& entry) {
 }
 
 std::string taken_by_friction(const FailedCheck& failed, bool at_rest) {
-  const design::CheckedEntry& most = failed.check.entries.at(0);
+  const design::CheckedEntry& maximum = failed.check.entries.at(0);
   if (at_rest) {
-    return fmt::format("breakaway takes {:.3g} N.m, by {} {}", failed["breakaway"], most.id,
-                       as_written(most));
+    return fmt::format("breakaway takes {:.3g} N.m, by {} {}", failed["breakaway"], maximum.id,
+                       as_written(maximum));
   }
   return fmt::format(
       "at the slew rate of '{}' ({:.3g} rad/s at the motors) it is {:.3g} N.m, mostly from {} {}",
       failed.antenna.drive->slew_rate.text, failed.physics.shaft.slew_rate,
-      failed["friction at slew rate"], most.id, as_written(most));
+      failed["friction at slew rate"], maximum.id, as_written(maximum));
 }
 
 // By which entries a stroke is known.
@@ -62,7 +62,7 @@ std::string friction_against_supply_sentence(const FailedCheck& failed) {
   const bool at_rest = failed.check.explanation.starts_with("breakaway");
   const bool impossible = failed.check.explanation.ends_with("_beyond_supply");
   std::string claim = fmt::format("Friction takes {:.0f} % of the supply's torque",
-                                  100.0 * failed["share of the supply torque"]);
+                                  100.0 * failed["fraction of the supply torque"]);
   std::string doubt = "wind and acceleration need torque as well, or ";
   if (impossible) {
     claim = fmt::format("The supply cannot {} the antenna against its friction",
@@ -89,18 +89,18 @@ std::string friction_test_line_sentence(const FailedCheck& failed) {
 std::string friction_curve_tests_sentence(const FailedCheck& failed) {
   const io::FrictionCurveEntry& curve = *failed.antenna.friction_curve;
   const auto rate = io::loose_stribeck_rate(curve).value();
-  std::string most;
+  std::string maximum;
   if (rate.moved_most_by) {
     const io::SteadyFrictionTest& test = curve.tests[*rate.moved_most_by];
-    most = fmt::format(", moved most by friction_curve.test[{}] of {:.4g} N.m at {:.4g} rad/s",
-                       *rate.moved_most_by, test.torque, test.rate);
+    maximum = fmt::format(", moved most by friction_curve.test[{}] of {:.4g} N.m at {:.4g} rad/s",
+                          *rate.moved_most_by, test.torque, test.rate);
   }
   return fmt::format(
       "The curve has as many unknowns as its {} tests, so no test checks it. {} the motors' "
       "Stribeck rate, {:.3g} rad/s by the torques as stated, is {}{}. Limit cycles and reversals "
       "depend on that rate: add tests at low rates.",
       curve.tests.size(), io::moved_torques(), curve.stribeck_rate.value,
-      io::in_words(rate, "rad/s"), most);
+      io::in_words(rate, "rad/s"), maximum);
 }
 
 std::string coulomb_levels_sentence(const FailedCheck& failed) {

@@ -51,7 +51,7 @@ ComparedSheet sheet_of(const Json& score, std::string_view wind_model) {
     const bool own = wind.at("condition") == fmt::format("{}, {:g} m/s", wind_model, speed);
     if (!own || !wind.at("boresight_rms_mdeg").is_number()) continue;
     sheet.wind_speed.push_back(speed);
-    sheet.beam_rms.push_back(wind.at("boresight_rms_mdeg").get<double>());
+    sheet.boresight_rms.push_back(wind.at("boresight_rms_mdeg").get<double>());
   }
   return sheet;
 }

@@ -19,25 +19,26 @@ constexpr double per_meganewton = 1e6 / millidegree;  // rad/(N m) to mdeg/(MN m
 constexpr io::KeyUnit compliance_unit{.suffix = "mdeg_per_MN_m", .multiplier = per_meganewton};
 
 // Per unit of torque, or of its impulse.
-struct CourseUnits {
+struct ResponseUnits {
   io::KeyUnit angle, square;
 };
 
-CourseUnits course_units(std::string_view angle, std::string_view square) {
+ResponseUnits response_units(std::string_view angle, std::string_view square) {
   return {{.suffix = angle, .multiplier = per_meganewton},
           {.suffix = square, .multiplier = std::pow(per_meganewton, 2)}};
 }
 
-void describe_course(io::Visitor& v, const control::CourseScore& course, const CourseUnits& units,
-                     double torque) {
+void describe_course(io::Visitor& v, const control::ResponseScore& course,
+                     const ResponseUnits& units, double torque) {
   v.number("peak", course.peak, units.angle, "Largest magnitude.");
   v.number("time_of_peak", course.time_of_peak, unit::second,
            "When; null where approached asymptotically.");
   v.number("final", course.final_value, units.angle, "Final boresight angle.");
-  v.number("return_time", course.return_time, unit::second,
-           "After which the boresight error stays within return_share_1 of the peak about its end; "
-           "null if it "
-           "does not within watched_s.");
+  v.number(
+      "return_time", course.return_time, unit::second,
+      "After which the boresight error stays within return_fraction_1 of the peak about its end; "
+      "null if it "
+      "does not within watched_s.");
   v.number("squared_error_integral", course.integral_squared_error, units.square,
            "Over all time, about the end.");
   v.number("peak_at_design_torque", course.peak * torque, unit::millidegree,
@@ -66,21 +67,21 @@ void describe_wind(io::Visitor& v, const design::WindScore& wind) {
   v.number("torque_coefficient", wind.torque_coefficient, unit::ratio, "Of the attitude.");
   v.number("torque_rms", wind.torque_rms, unit::newton_metre, "At the antenna's axis.");
   v.number("wind_rms", wind.wind_rms, unit::millidegree, "Of the boresight, from wind alone.");
-  v.number("beam_rms", wind.beam_rms, unit::millidegree, "With the sensors' noise.");
+  v.number("boresight_rms", wind.boresight_rms, unit::millidegree, "With the sensors' noise.");
 }
 
 void describe_compliance(io::Visitor& v, const design::RejectionScore& score) {
-  const double held = score.encoder_held_compliance;
+  const double held = score.flexure_compliance;
   v.number("worst_at_least", score.worst.lower, compliance_unit, "Largest, at its frequency.");
   v.number("worst_at_most", score.worst.upper, compliance_unit, "No frequency has more.");
   v.number("worst_frequency", score.worst.frequency, unit::hertz_of_radians, "Where it is.");
   v.number("static", score.static_compliance, compliance_unit, "Under a constant torque.");
-  v.number("encoder_held", held, compliance_unit,
+  v.number("flexure", held, compliance_unit,
            "The same with the encoder fixed: flexure beyond the encoder.");
-  v.number("worst_to_encoder_held", score.worst.lower / held, unit::ratio,
-           "worst_at_least over encoder_held.");
-  v.number("step_peak_to_encoder_held", score.step.peak / held, unit::ratio,
-           "Peak after the torque step over encoder_held.");
+  v.number("worst_to_flexure", score.worst.lower / held, unit::ratio,
+           "worst_at_least over flexure.");
+  v.number("step_peak_to_flexure", score.step.peak / held, unit::ratio,
+           "Peak after the torque step over flexure.");
 }
 
 // A pointing budget and the wind speed up to which it is met.
@@ -114,33 +115,34 @@ void describe_reference(io::Visitor& v, const design::RejectionReference& refere
   const auto ratio = [&](const std::optional<double>& to) {
     return to && *to > 0.0 ? std::optional(rms / *to) : std::nullopt;
   };
-  v.number("encoder_held_rms", reference.encoder_held_rms, unit::millidegree,
+  v.number("flexure_rms", reference.flexure_rms, unit::millidegree,
            "Boresight rms with the encoder fixed.");
-  v.number("least_rms", reference.least_rms, unit::millidegree,
+  v.number("min_rms", reference.min_rms, unit::millidegree,
            "Lower bound over linear sampled controllers at the limit of control effort; null where "
            "a sensor has no noise.");
-  v.number("least_rms_at_own_effort", reference.least_rms_at_own_effort, unit::millidegree,
+  v.number("min_rms_at_own_effort", reference.min_rms_at_own_effort, unit::millidegree,
            "The same at this controller's own control effort.");
-  v.number("to_encoder_held", ratio(reference.encoder_held_rms), unit::ratio,
-           "Boresight rms in the design wind over encoder_held_rms.");
-  v.number("to_least", ratio(reference.least_rms), unit::ratio, "The same over least_rms.");
-  v.number("to_least_at_own_effort", ratio(reference.least_rms_at_own_effort), unit::ratio,
-           "The same over least_rms_at_own_effort.");
+  v.number("to_flexure", ratio(reference.flexure_rms), unit::ratio,
+           "Boresight rms in the design wind over flexure_rms.");
+  v.number("to_min", ratio(reference.min_rms), unit::ratio, "The same over min_rms.");
+  v.number("to_min_at_own_effort", ratio(reference.min_rms_at_own_effort), unit::ratio,
+           "The same over min_rms_at_own_effort.");
 }
 
 void describe_ensemble(io::Visitor& v, const design::RejectionEnsemble& ensemble,
                        std::string_view source) {
   const auto count = static_cast<double>(ensemble.members.size());
   v.text("source", source, "Distribution that the plants are sampled from.");
-  v.number("stable_share", ensemble.stable / count, unit::ratio, "Of the plants.");
-  v.number("within_goals_share", ensemble.within_goals / count, unit::ratio, "Of the plants.");
-  v.number("largest_beam_rms", ensemble.largest_rms, unit::millidegree, "Of the stable ones.");
+  v.number("stable_fraction", ensemble.stable / count, unit::ratio, "Of the plants.");
+  v.number("within_constraints_fraction", ensemble.within_constraints / count, unit::ratio,
+           "Of the plants.");
+  v.number("largest_boresight_rms", ensemble.largest_rms, unit::millidegree, "Of the stable ones.");
   v.list("members", ensemble.members, "One a plant.", [&](const design::RejectionMember& member) {
     v.text("name", member.name, "Of the plant.");
     v.flag("stable", member.stable, "Whether the loop is.");
-    v.flag("within_goals", member.within_goals, "Whether it meets every constraint.");
-    v.number("beam_rms", member.beam_rms, unit::millidegree, "In the design wind.");
-    v.number("valve_effort", member.valve_effort, unit::radian_per_second,
+    v.flag("within_constraints", member.within_constraints, "Whether it meets every constraint.");
+    v.number("boresight_rms", member.boresight_rms, unit::millidegree, "In the design wind.");
+    v.number("control_effort", member.control_effort, unit::radian_per_second,
              "Rms of the valve command from the sensors' noise.");
     v.numbers("sensitivity_peaks", member.sensitivity_peaks, unit::ratio,
               "Peak of |S| at each break, null where there is none.");
@@ -148,11 +150,12 @@ void describe_ensemble(io::Visitor& v, const design::RejectionEnsemble& ensemble
 }
 
 void describe_nonlinear(io::Visitor& v, const design::NonlinearVerification& result) {
-  v.number("simulated_beam_rms", result.wind.beam_rms, unit::millidegree, "In the design wind.");
+  v.number("simulated_boresight_rms", result.wind.boresight_rms, unit::millidegree,
+           "In the design wind.");
   v.number("linear_prediction", result.wind.predicted_rms, unit::millidegree,
            "The same by the spectrum.");
-  v.list("hunting", result.hunting, "Without wind and noise at a steady rate.",
-         [&](const design::HuntingResult& one) {
+  v.list("limit_cycles", result.limit_cycles, "Without wind and noise at a steady rate.",
+         [&](const design::LimitCycleResult& one) {
            v.word("motion", one.rate == 0.0 ? "at rest" : "at the tracking rate",
                   {"at rest", "at the tracking rate"}, "Which rate.");
            describe(v, one, io::LimitCycleDetail::score);
@@ -160,8 +163,8 @@ void describe_nonlinear(io::Visitor& v, const design::NonlinearVerification& res
   const auto error = [&](double design::ReversalResult::*of) {
     return result.reversal ? std::optional((*result.reversal).*of) : std::nullopt;
   };
-  v.number("reversal_beam_error", error(&design::ReversalResult::beam_error), unit::millidegree,
-           "Largest after a slow reversal, about the mean.");
+  v.number("reversal_boresight_error", error(&design::ReversalResult::boresight_error),
+           unit::millidegree, "Largest after a slow reversal, about the mean.");
   v.number("reversal_encoder_error", error(&design::ReversalResult::encoder_error),
            unit::millidegree, "Largest after a slow reversal.");
 }
@@ -209,7 +212,8 @@ void describe_conditions(io::Visitor& v, const BenchmarkReport& report) {
   v.number("gear_ratio", report.gear_ratio, unit::ratio, "Motor turns per turn of the axis.");
   v.number("band_lowest", report.rms_band.lowest, unit::hertz, "Of the band of every rms.");
   v.number("band_highest", report.rms_band.highest, unit::hertz, "Of the band of every rms.");
-  v.number("return_share", control::CourseOptions{}.return_share, unit::ratio, "Of return_time_s.");
+  v.number("return_fraction", control::ResponseOptions{}.return_fraction, unit::ratio,
+           "Of return_time_s.");
 }
 
 }  // namespace
@@ -220,25 +224,25 @@ void describe_score(io::Visitor& v, const BenchmarkReport& report) {
   v.group("torque_step", "Boresight response to a torque step, per torque at the antenna's axis.",
           [&] {
             describe_course(v, score.step,
-                            course_units("mdeg_per_MN_m", "mdeg2_s_per_MN_m_squared"), torque);
+                            response_units("mdeg_per_MN_m", "mdeg2_s_per_MN_m_squared"), torque);
           });
   v.group("torque_impulse", "Boresight response to a torque impulse.", [&] {
-    describe_course(v, score.impulse, course_units("mdeg_per_MN_m_s", "mdeg2_s_per_MN_m_s_squared"),
-                    torque);
+    describe_course(v, score.impulse,
+                    response_units("mdeg_per_MN_m_s", "mdeg2_s_per_MN_m_s_squared"), torque);
   });
   v.group("compliance", "|boresight error/torque| over frequency.",
           [&] { describe_compliance(v, score); });
   v.list("loop_breaks", score.breaks, "Margins of the loop cut at each break.",
          [&](const design::BreakScore& one) { describe_break(v, one); });
   v.group("noise", "What the sensors' noise does.", [&] {
-    v.number("beam_rms", score.noise_rms, unit::millidegree, "At the sky, one axis.");
-    v.number("valve_effort", score.valve_effort, unit::radian_per_second,
+    v.number("boresight_rms", score.noise_rms, unit::millidegree, "At the sky, one axis.");
+    v.number("control_effort", score.control_effort, unit::radian_per_second,
              "Rms of the valve command.");
   });
   v.group("design_wind", "At the case's design wind.", [&] {
     describe_wind(v, score.design_wind);
-    v.number("lyapunov_beam_rms", score.lyapunov_rms, unit::millidegree,
-             "beam_rms_mdeg by independent code: Lyapunov equations with a shaping filter.");
+    v.number("lyapunov_boresight_rms", score.lyapunov_rms, unit::millidegree,
+             "boresight_rms_mdeg by independent code: Lyapunov equations with a shaping filter.");
   });
   v.list("winds", score.winds, "The protocol's ladder.",
          [&](const design::WindScore& wind) { describe_wind(v, wind); });
@@ -246,7 +250,7 @@ void describe_score(io::Visitor& v, const BenchmarkReport& report) {
   v.optional_group("reference", score.reference,
                    "Against the best that any controller could do; null if left out.",
                    [&](const design::RejectionReference& reference) {
-                     describe_reference(v, reference, score.design_wind.beam_rms);
+                     describe_reference(v, reference, score.design_wind.boresight_rms);
                    });
   v.optional_group("ensemble", score.ensemble, "On the plant ensemble; null if omitted.",
                    [&](const design::RejectionEnsemble& ensemble) {

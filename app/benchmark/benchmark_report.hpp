@@ -29,7 +29,7 @@ struct ComparedQuantity {
 struct ComparedSheet {
   std::vector<double> frequency, compliance;  // Hz, mdeg/(MN m)
   /// The ladder in this sheet's wind model with the other case's own torque coefficient.
-  std::vector<double> wind_speed, beam_rms;  // m/s, mdeg
+  std::vector<double> wind_speed, boresight_rms;  // m/s, mdeg
 };
 
 /// A score sheet of `boresight benchmark`.

@@ -28,7 +28,7 @@ std::string limit_text(double speed) {
   return std::isfinite(speed) ? fmt::format("{:.1f} m/s", speed) : "beyond 60 m/s";
 }
 
-Document course_part(const char* name, const char* unit, const control::CourseScore& course,
+Document course_part(const char* name, const char* unit, const control::ResponseScore& course,
                      double torque) {
   const std::string returned =
       course.return_time ? fmt::format("settling time (5 %) {:.3g} s", *course.return_time)
@@ -80,7 +80,7 @@ Document ladder_part(const std::vector<design::WindScore>& winds) {
                                          wind.attitude.empty() ? "" : ", ", wind.attitude);
     if (name != before) rows.push_back({name});
     before = name;
-    rows.back().push_back(value(wind.beam_rms / millidegree, "{:.3f}"));
+    rows.back().push_back(value(wind.boresight_rms / millidegree, "{:.3f}"));
   }
   return table(rows);
 }
@@ -88,20 +88,19 @@ Document ladder_part(const std::vector<design::WindScore>& winds) {
 Document reference_part(const BenchmarkReport& report) {
   if (!report.score.reference) return {};
   const auto& reference = *report.score.reference;
-  const double rms = report.score.design_wind.beam_rms;
+  const double rms = report.score.design_wind.boresight_rms;
   std::string text = fmt::format(
       "Boresight rms {:.4g} mdeg is {:.3f} times the flexure beyond the encoder ({:.4g} mdeg with "
       "the encoder fixed; not a lower bound)",
-      rms / millidegree, rms / reference.encoder_held_rms,
-      reference.encoder_held_rms / millidegree);
-  if (reference.least_rms && reference.least_rms_at_own_effort &&
-      *reference.least_rms_at_own_effort > 0.0) {
+      rms / millidegree, rms / reference.flexure_rms, reference.flexure_rms / millidegree);
+  if (reference.min_rms && reference.min_rms_at_own_effort &&
+      *reference.min_rms_at_own_effort > 0.0) {
     text += fmt::format(
         ", {:.3f} times the lower bound of linear sampled controllers at the limit of control "
         "effort ({:.4g} mdeg) and {:.3f} times that at its own effort ({:.4g} mdeg). The bounds "
         "ignore margins.",
-        rms / *reference.least_rms, *reference.least_rms / millidegree,
-        rms / *reference.least_rms_at_own_effort, *reference.least_rms_at_own_effort / millidegree);
+        rms / *reference.min_rms, *reference.min_rms / millidegree,
+        rms / *reference.min_rms_at_own_effort, *reference.min_rms_at_own_effort / millidegree);
   } else {
     text += "; without stated sensor noise there is no lower bound.";
   }
@@ -115,13 +114,13 @@ const char* described(const BenchmarkReport& report) {
 
 Document nonlinear_part(const TimeDomainSection& section, const char* friction) {
   std::string text;
-  for (const auto& one : section.result.hunting) {
+  for (const auto& one : section.result.limit_cycles) {
     const std::string motion = one.rate == 0.0 ? "At rest" : "At the tracking rate";
     if (one.status != design::RunStatus::complete) {
       text += fmt::format("{}: run {}. ", motion, design::to_string(one.status));
     } else if (one.limit_cycle) {
       text += fmt::format("{}: limit cycle of +-{:.3g} mdeg at the boresight{}. ", motion,
-                          one.beam_amplitude / millidegree,
+                          one.boresight_amplitude / millidegree,
                           one.frequency ? fmt::format(", {:.3g} Hz", *one.frequency) : "");
     } else {
       text += fmt::format("{}: no limit cycle above the encoder's resolution. ", motion);
@@ -131,14 +130,14 @@ Document nonlinear_part(const TimeDomainSection& section, const char* friction) 
   if (reversal && reversal->status == design::RunStatus::complete) {
     text += fmt::format(
         "Velocity reversal at tracking rate: boresight error {:.3g} mdeg, encoder {:.3g} mdeg. ",
-        reversal->beam_error / millidegree, reversal->encoder_error / millidegree);
+        reversal->boresight_error / millidegree, reversal->encoder_error / millidegree);
   }
   text += fmt::format(
       "One record of the design wind on the nonlinear antenna: {:.4g} mdeg rms, {:.4g} predicted "
       "by "
       "the linear loop. Sampled every {:g} s; friction {}.",
-      section.result.wind.beam_rms / millidegree, section.result.wind.predicted_rms / millidegree,
-      section.sample_time, friction);
+      section.result.wind.boresight_rms / millidegree,
+      section.result.wind.predicted_rms / millidegree, section.sample_time, friction);
   return wrapped(text, "  ", "  ");
 }
 
@@ -188,8 +187,9 @@ Document document_of(const BenchmarkReport& report) {
             "unstable loop has no score.",
             score.abscissa),
         "  ", "  "));
-    if (report.present_gains && report.controller.law) {
-      text += wrapped(unstable_present_gains(report.controller.law->structure.name()), "  ", "  ");
+    if (report.present_gains && report.controller.controller) {
+      text += wrapped(unstable_present_gains(report.controller.controller->structure.name()), "  ",
+                      "  ");
     }
     return text + document_of(report.assumed);
   }
@@ -206,14 +206,13 @@ Document document_of(const BenchmarkReport& report) {
                         score.worst.lower * per_meganewton, score.worst.upper * per_meganewton)
           : fmt::format("at least {:.6g} mdeg/(MN m), no upper bound certified",
                         score.worst.lower * per_meganewton);
-  text += essential(
-      wrapped(fmt::format("Worst frequency {:.4g} Hz: {}, {:.3g} times the structural flexure with "
-                          "the encoder fixed, {:.4g} mdeg/(MN m). Static: {:.4g} mdeg/(MN m).",
-                          score.worst.frequency / two_pi, bracket,
-                          score.worst.lower / score.encoder_held_compliance,
-                          score.encoder_held_compliance * per_meganewton,
-                          score.static_compliance * per_meganewton),
-              "  ", "  "));
+  text += essential(wrapped(
+      fmt::format(
+          "Worst frequency {:.4g} Hz: {}, {:.3g} times the structural flexure with "
+          "the encoder fixed, {:.4g} mdeg/(MN m). Static: {:.4g} mdeg/(MN m).",
+          score.worst.frequency / two_pi, bracket, score.worst.lower / score.flexure_compliance,
+          score.flexure_compliance * per_meganewton, score.static_compliance * per_meganewton),
+      "  ", "  "));
   text += heading("Margins");
   text += essential(margins_part(score));
   text += heading("Wind");
@@ -221,9 +220,9 @@ Document document_of(const BenchmarkReport& report) {
       fmt::format("In the design wind: boresight {:.4g} mdeg rms ({:.4g} by Lyapunov equations "
                   "with the wind's filter), {:.4g} from wind, {:.4g} from sensor noise. Control "
                   "effort {:.4g} rad/s, limit {:g}.",
-                  score.design_wind.beam_rms / millidegree, score.lyapunov_rms / millidegree,
+                  score.design_wind.boresight_rms / millidegree, score.lyapunov_rms / millidegree,
                   score.design_wind.wind_rms / millidegree, score.noise_rms / millidegree,
-                  score.valve_effort, report.goals.valve_effort),
+                  score.control_effort, report.goals.control_effort),
       "  ", "  ");
   if (score.reference) text += reference_part(report);
   if (!score.winds.empty()) text += "\n" + essential(ladder_part(score.winds));
@@ -246,7 +245,7 @@ Document document_of(const BenchmarkReport& report) {
         fmt::format("Of {} plants {}, {} are stable and {} keep Ms and control effort within their "
                     "limits. Largest boresight rms of the stable ones: {:.4g} mdeg.",
                     ensemble.members.size(), report.ensemble_source, ensemble.stable,
-                    ensemble.within_goals, ensemble.largest_rms / millidegree),
+                    ensemble.within_constraints, ensemble.largest_rms / millidegree),
         "  ", "  "));
   }
   text += heading("Nonlinear antenna");

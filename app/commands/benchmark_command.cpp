@@ -61,10 +61,10 @@ std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Ca
   if (arguments.gains == "case") {
     const auto present = present_controller(antenna, arguments.structure);
     return Named{design::controller_of(
-        present.law, present.law.structure.name() + ", present gains", sample_time)};
+        present.controller, present.controller.structure.name() + ", present gains", sample_time)};
   }
   const auto gains = io::read_gains_file(arguments.gains, antenna, arguments.structure);
-  return Named{design::controller_of(gains.law, gains.description, sample_time)};
+  return Named{design::controller_of(gains.controller, gains.description, sample_time)};
 }
 
 Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAntenna& designed,
@@ -80,7 +80,8 @@ Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAnt
   options.interrupted = interrupted;
   const auto chosen = recommended_controller(designed, options);
   return {design::controller_of(
-      chosen.law, fmt::format("{}, {}", chosen.law.structure.name(), chosen.source), sample_time)};
+      chosen.controller, fmt::format("{}, {}", chosen.controller.structure.name(), chosen.source),
+      sample_time)};
 }
 
 std::string text_of(const std::string& path) {

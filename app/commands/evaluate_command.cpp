@@ -11,8 +11,8 @@
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
+#include <boresight/app/redesign/assumed_fractions_fixed.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/text_report.hpp>
@@ -40,14 +40,14 @@ int run(EvaluateArguments arguments) {
   if (!report.evaluated) return internal_error;
   int code = done;
   for (const auto& candidate : report.evaluated->candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    const bool met = law != nullptr && law->goals_met;
+    const CandidateController* controller = candidate.chosen_controller();
+    const bool met = controller != nullptr && controller->constraints_met;
     // Hunting is no hard goal: the report says it, and does not choose such a law.
-    if (met && law->design.verification.passed) continue;
+    if (met && controller->design.verification.passed) continue;
     fmt::print(stderr, "boresight: {}: {}\n", candidate.name,
-               law == nullptr ? "no structure has a stable controller"
-               : met          ? "no controller that meets its constraints passes its verification"
-                              : "no controller meets the constraints on every plant");
+               controller == nullptr ? "no structure has a stable controller"
+               : met ? "no controller that meets its constraints passes its verification"
+                     : "no controller meets the constraints on every plant");
     if (code != infeasible) code = met ? numerical : infeasible;
   }
   for (const auto& sentence : unmet_needs(*report.evaluated)) {
@@ -67,7 +67,7 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   io::check_proposals(antenna, proposals);
   EvaluateOptions options;
   options.structures = arguments.structures;
-  options.draws = arguments.draws;
+  options.random_samples = arguments.random_samples;
   options.starts = arguments.starts;
   options.time_domain = arguments.time_domain;
   options.seed = arguments.seed;
@@ -101,9 +101,9 @@ Report evaluate_case(const EvaluateArguments& arguments, const std::function<boo
   const auto& candidates = report.evaluated->candidates;
   // An interrupted study may not have got to the antenna as it is.
   if (!candidates.empty() && candidates.front().path.empty()) {
-    if (const CandidateLaw* law = candidates.front().chosen_law()) {
-      conclude_guessed_shares(antenna, law->design.tuning.law, report.evaluated->wind_speed,
-                              report.conclusions);
+    if (const CandidateController* controller = candidates.front().chosen_controller()) {
+      conclude_guessed_fractions(antenna, controller->design.tuning.controller,
+                                 report.evaluated->wind_speed, report.conclusions);
     }
   }
   io::conclude_friction_doubt(antenna, report.conclusions);
@@ -126,7 +126,7 @@ Subcommand add_evaluate(CLI::App& program) {
   sub->add_option("--goal", arguments->goals,
                   "KEY=VALUE of [goals] instead of the case's, one or several")
       ->expected(1, 100);
-  sub->add_option("--draws", arguments->draws, "sampled plants for the probabilities")
+  sub->add_option("--draws", arguments->random_samples, "sampled plants for the probabilities")
       ->check(CLI::Range(100, 1000000))
       ->capture_default_str();
   sub->add_option("--starts", arguments->starts, "random starts of each search")

@@ -16,7 +16,7 @@ struct EvaluateArguments {
   Outputs outputs;
   std::vector<std::string> structures;  // empty: PI
   std::vector<std::string> goals;       // changes of [goals], KEY=VALUE
-  std::size_t draws = 2000;
+  std::size_t random_samples = 2000;
   int starts = 0;           // 0: as the case has it
   bool time_domain = true;  // run controllers on the nonlinear antenna
   std::uint64_t seed = 1;

@@ -127,7 +127,7 @@ Subcommand add_match(CLI::App& program) {
                   "number of disk counts, evenly spaced from 0; ratio 1 and as built are added")
       ->check(CLI::Range(4, 1000))
       ->capture_default_str();
-  sub->add_option("--most-disks", options.most_disks,
+  sub->add_option("--most-disks", options.max_disks,
                   "largest number of disks (default: most_disks of the case)")
       ->check(CLI::Range(0.1, 1e4));
   sub->add_option("--starts", options.starts, "random starts of each search")

@@ -68,16 +68,16 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
 // draws of the same distribution, and its stability over the wider ranges of the case.
 void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& options,
                           TuningSection& section) {
-  constexpr std::size_t draws = 200;
-  evaluate_on(plant.from_records
-                  ? io::drawn_members(plant.mission, plant.distribution, options.seed, draws)
-                  : plant.ensemble.members,
+  constexpr std::size_t random_samples = 200;
+  evaluate_on(plant.from_records ? io::drawn_members(plant.mission, plant.distribution,
+                                                     options.seed, random_samples)
+                                 : plant.ensemble.members,
               options.threads, section);
   if (!section.ensemble) return;
   if (plant.from_records) {
     section.instability = design::instability(
         plant.mission, design::PlantDistribution::of_ranges(plant.mission),
-        section.design.tuning.law,
+        section.design.tuning.controller,
         {.plants = 1000, .seed = options.seed, .retune = false, .threads = options.threads});
   }
   section.ensemble_source =

@@ -70,7 +70,7 @@ void check_tests(const std::vector<std::string>& tests) {
 SimulatedController controller_of(const io::Case& antenna, const SimulateArguments& arguments,
                                   const std::function<bool()>& interrupted) {
   if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
-    return {std::move(named->law), std::move(named->source)};
+    return {std::move(named->controller), std::move(named->source)};
   }
   const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
@@ -82,7 +82,7 @@ SimulatedController controller_of(const io::Case& antenna, const SimulateArgumen
   options.threads = arguments.threads;
   options.interrupted = interrupted;
   auto recommended = recommended_controller(designed, options);
-  return {std::move(recommended.law), std::move(recommended.source)};
+  return {std::move(recommended.controller), std::move(recommended.source)};
 }
 
 // Has the tests run, several at a time, and keeps what the report says of them in their order.
@@ -121,7 +121,7 @@ class Campaign {
     }
     const auto outcome =
         design::run_tests(runs_, arguments_.threads,
-                          {interrupted_, [this](double share) { show(share); },
+                          {interrupted_, [this](double fraction) { show(fraction); },
                            [this](std::size_t run, design::TestRecord record) {
                              std::visit([&](auto& made) { keep(run, made); }, record);
                            }});
@@ -152,7 +152,7 @@ class Campaign {
       under_position_loop_ = true;
       names_.push_back({test, test});
       runs_.emplace_back([this, test, seed](const design::RunProgress& progress) {
-        return run_position_test(antenna_, test, controller_.law, seed, progress);
+        return run_position_test(antenna_, test, controller_.controller, seed, progress);
       });
       return;
     }
@@ -173,8 +173,8 @@ class Campaign {
   }
 
   // One line for all runs on a terminal.
-  void show(double share) {
-    const auto part = static_cast<std::size_t>(share * static_cast<double>(progress_parts));
+  void show(double fraction) {
+    const auto part = static_cast<std::size_t>(fraction * static_cast<double>(progress_parts));
     if (part > 0) line_.show(part, progress_parts);
   }
 

@@ -8,8 +8,8 @@
 #include <boresight/app/figures/report_figures.hpp>
 #include <boresight/app/models/linear_models.hpp>
 #include <boresight/app/page/report_page.hpp>
+#include <boresight/app/redesign/assumed_fractions_fixed.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/redesign/guessed_shares_held.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/report/measured_report.hpp>
@@ -98,22 +98,24 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   report.tuned = section_of(antenna, std::move(study.tuned));
   report.time_domain = section_of(antenna, std::move(study.time_domain));
   report.interrupted = interrupted && interrupted();
-  const TunedLaw* shown =
-      shown_law(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
+  const TunedController* shown =
+      shown_controller(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
   if (shown != nullptr && !report.interrupted) {
     report.tuned->curves = curves_of(*report.tuned, *shown, ensemble, arguments.threads);
   }
   if (report.time_domain) report.assumed = assumed_inputs(antenna, {.time_runs = true});
-  const TunedLaw* best = best_law(*report.tuned);
+  const TunedController* best = best_controller(*report.tuned);
   if (best != nullptr && !report.interrupted) {
     report.limit =
         pointing_limit_of(mission, *report.tuned, ensemble, best->wind_speed, arguments.threads);
   }
   report.conclusions = conclude(*report.tuned);
   if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));
-  const TunedLaw* law = best != nullptr ? recommended_law(*report.tuned) : nullptr;
-  if (law != nullptr && !report.interrupted) {
-    conclude_guessed_shares(antenna, law->design.tuning.law, law->wind_speed, report.conclusions);
+  const TunedController* controller =
+      best != nullptr ? recommended_tuned_controller(*report.tuned) : nullptr;
+  if (controller != nullptr && !report.interrupted) {
+    conclude_guessed_fractions(antenna, controller->design.tuning.controller,
+                               controller->wind_speed, report.conclusions);
   }
   lead_with_resonance(report);
   return report;

@@ -17,7 +17,7 @@ void describe_band(io::Visitor& v, std::string_view key, const design::PlantBand
   v.group(io::key_with_unit(key, of), meaning, [&] {
     v.defined_as("band", "A quantity over the plants, in the unit of the key that holds it.");
     v.number("nominal", band.nominal, unnamed, "on the nominal plant");
-    v.number("least", band.least, unnamed, "over the plants");
+    v.number("minimum", band.minimum, unnamed, "over the plants");
     v.number("largest", band.largest, unnamed, "over the plants");
     v.number("lower", band.lower, unnamed, "of the prediction interval");
     v.number("upper", band.upper, unnamed, "of that interval");
@@ -37,13 +37,12 @@ void describe_expected(io::Visitor& v, const design::StageExpectation& expected,
                 "10 % to 90 % of the command's step");
   describe_band(v, "overshoot", expected.overshoot, unit::ratio, "fraction of the step");
   describe_band(v, "settling_time", expected.settling_time, unit::second, "into 5 %");
-  describe_band(v, "still_encoder_error", expected.still_encoder, sky,
+  describe_band(v, "calm_encoder_error", expected.calm_encoder, sky,
                 "rms in still air as recorded, at the sky; null with the position loop open");
-  describe_band(v, "still_tachometer", expected.still_tachometer, unit::radian_per_second,
+  describe_band(v, "calm_tachometer", expected.calm_tachometer, unit::radian_per_second,
                 "rms in still air as recorded, at the motor");
-  describe_band(v, "still_torque", expected.still_torque, unit::newton_metre, "the same");
-  describe_band(v, "still_valve_command", expected.still_valve, unit::radian_per_second,
-                "the same");
+  describe_band(v, "calm_torque", expected.calm_torque, unit::newton_metre, "the same");
+  describe_band(v, "calm_valve_command", expected.calm_valve, unit::radian_per_second, "the same");
   describe_band(v, "windy_encoder_error", expected.windy_encoder, sky,
                 "rms in the design wind as recorded, at the sky; null with the position loop "
                 "open");
@@ -52,7 +51,7 @@ void describe_expected(io::Visitor& v, const design::StageExpectation& expected,
   describe_band(v, "windy_torque", expected.windy_torque, unit::newton_metre, "the same");
   describe_band(v, "windy_valve_command", expected.windy_valve, unit::radian_per_second,
                 "the same");
-  describe_band(v, "beam_rms", expected.beam_rms, sky,
+  describe_band(v, "boresight_rms", expected.boresight_rms, sky,
                 "in the design wind, one axis; null with the position loop open");
   describe_band(v, "move_error", expected.move_error, sky,
                 "largest encoder error of the move; null with the position loop open");
@@ -66,9 +65,9 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
          "what the stage changes");
   v.count("step", sheet.stage.step, "number among those of its kind, from 1");
   v.count("steps", sheet.stage.steps, "of its kind");
-  v.word("position_loop", sheet.stage.law.position_open ? "open" : "closed", {"open", "closed"},
-         "in this stage");
-  v.flag("feedforward", sheet.stage.law.feedforward,
+  v.word("position_loop", sheet.stage.controller.position_open ? "open" : "closed",
+         {"open", "closed"}, "in this stage");
+  v.flag("feedforward", sheet.stage.controller.feedforward,
          "of the commanded motion's own rate and acceleration");
   v.list("gains", sheet.gains, "those that act", [&](const StageGain& gain) {
     v.text("symbol", gain.symbol, "its symbol");
@@ -85,9 +84,9 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
   const auto& abort = sheet.stage.abort;
   v.group("abort", "beyond any of these: back to the previous stage", [&] {
     v.number("overshoot", abort.overshoot, unit::ratio, "fraction of the step");
-    v.number("still_valve_command", abort.still_valve_rms, unit::radian_per_second,
+    v.number("calm_valve_command", abort.calm_valve_rms, unit::radian_per_second,
              "rms in still air");
-    v.number("still_encoder_error", abort.still_encoder_rms, sky,
+    v.number("calm_encoder_error", abort.calm_encoder_rms, sky,
              "rms in still air, at the sky; null with the position loop open");
     v.number(
         "gain_reserve", abort.gain_reserve, unit::ratio,

@@ -26,7 +26,7 @@ std::string structure_of_gains(const CommissionOptions& options) {
 }
 
 // The recommended controller; its structure and bounds go into the report.
-control::ControlLaw recommended(const io::DesignedAntenna& designed,
+control::Controller recommended(const io::DesignedAntenna& designed,
                                 const CommissionOptions& options, CommissionReport& report) {
   design::TuneOptions tuning;
   if (!options.structure.empty()) {
@@ -44,8 +44,8 @@ control::ControlLaw recommended(const io::DesignedAntenna& designed,
   design::ControllerStudy study = study_controllers(designed.mission, designed.ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
   // One that limit-cycles is planned for with a warning.
-  const TunedLaw* law = commissionable(study);
-  if (law == nullptr) {
+  const TunedController* controller = commissionable(study);
+  if (controller == nullptr) {
     report.structure = fmt::format("{}", fmt::join(study.tuned.structures, ", "));
     const auto shortfalls = section_of(designed.antenna, std::move(study.tuned)).shortfalls;
     throw InfeasibleRequirement(fmt::format(
@@ -54,9 +54,9 @@ control::ControlLaw recommended(const io::DesignedAntenna& designed,
         shortfalls.empty() ? std::string()
                            : ": " + shortfalls[0].infeasible + " " + shortfalls[0].closest));
   }
-  report.structure = law->structure;
-  report.bounds = about_bounds(study.tuned, io::GainUnits(designed.antenna), {law});
-  return law->design.tuning.law;
+  report.structure = controller->structure;
+  report.bounds = about_bounds(study.tuned, io::GainUnits(designed.antenna), {controller});
+  return controller->design.tuning.controller;
 }
 
 }  // namespace
@@ -108,9 +108,9 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
     report.no_plan = error.what();
   };
   try {
-    const control::ControlLaw target =
+    const control::Controller target =
         report.tuned ? recommended(designed, options, report)
-                     : io::law_by_key(antenna, report.structure, options.gains);
+                     : io::controller_by_key(antenna, report.structure, options.gains);
     const design::CommissionStudy study =
         study_commission(designed.mission, ensemble, target, report.options, options.seed);
     report.plan = study.plan;

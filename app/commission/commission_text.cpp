@@ -34,13 +34,13 @@ Document overview(const CommissionReport& report) {
     const auto& stage = report.sheets[i].stage;
     const auto& expected = stage.expected;
     rows.push_back({fmt::format("{}", i + 1), stage_name(stage),
-                    stage.law.position_open ? "open" : "closed",
+                    stage.controller.position_open ? "open" : "closed",
                     number(expected.peak.largest, "{:.2f}"),
                     number(expected.crossover.nominal / two_pi, "{:.4f}"),
                     number(expected.rise_time.nominal, "{:.2f}"),
                     number(100.0 * expected.overshoot.nominal, "{:.0f}"),
-                    number(expected.still_valve.nominal, "{:.4f}"),
-                    number(expected.beam_rms.nominal / sky, "{:.4f}"),
+                    number(expected.calm_valve.nominal, "{:.4f}"),
+                    number(expected.boresight_rms.nominal / sky, "{:.4f}"),
                     fmt::format("{}/{}", expected.stable, expected.plants)});
   }
   return table(rows, "rll") +
@@ -54,8 +54,9 @@ Document sheets(const CommissionReport& report) {
   Document text;
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const auto& sheet = report.sheets[i];
-    text += subheading(fmt::format("{} {}{}", i + 1, stage_name(sheet.stage),
-                                   sheet.stage.law.position_open ? ", position loop open" : ""));
+    text +=
+        subheading(fmt::format("{} {}{}", i + 1, stage_name(sheet.stage),
+                               sheet.stage.controller.position_open ? ", position loop open" : ""));
     std::vector<std::string> gains;
     for (const auto& gain : sheet.gains) {
       gains.push_back(fmt::format("{} = {}{}", gain.symbol, gain.text, gain.changed ? " *" : ""));

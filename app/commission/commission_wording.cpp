@@ -41,7 +41,7 @@ void describe_check(const io::Case& antenna, StageSheet& sheet) {
                               expected.plants - expected.stable, expected.plants);
     return;
   }
-  const bool open = sheet.stage.law.position_open;
+  const bool open = sheet.stage.controller.position_open;
   if (sheet.stage.kind == StageKind::feedforward) {
     sheet.check = "Largest encoder error of the move: " + range(expected.move_error, sky, 3) +
                   " mdeg. The step as in the stage before. ";
@@ -55,12 +55,11 @@ void describe_check(const io::Case& antenna, StageSheet& sheet) {
   }
   sheet.check += fmt::format("Crossover {} Hz. ", range(expected.crossover, two_pi, 3));
   sheet.check +=
-      "In still air, rms of the valve command " + range(expected.still_valve, 1.0, 3) + " rad/s";
-  sheet.check += open
-                     ? ", of the tachometer " + range(expected.still_tachometer, 1.0, 3) + " rad/s."
-                     : ", of the encoder error " + range(expected.still_encoder, sky, 3) +
-                           " mdeg. Boresight rms in the design wind " +
-                           range(expected.beam_rms, sky, 3) + " mdeg.";
+      "In still air, rms of the valve command " + range(expected.calm_valve, 1.0, 3) + " rad/s";
+  sheet.check += open ? ", of the tachometer " + range(expected.calm_tachometer, 1.0, 3) + " rad/s."
+                      : ", of the encoder error " + range(expected.calm_encoder, sky, 3) +
+                            " mdeg. Boresight rms in the design wind " +
+                            range(expected.boresight_rms, sky, 3) + " mdeg.";
 }
 
 void describe_abort(const io::Case& antenna, StageSheet& sheet, const CommissionReport& report) {
@@ -72,10 +71,10 @@ void describe_abort(const io::Case& antenna, StageSheet& sheet, const Commission
   }
   sheet.abort = fmt::format(
       "Overshoot above {:.0f} %, or in still air rms of the valve command above {:.3g} rad/s",
-      100.0 * abort.overshoot, abort.still_valve_rms);
-  if (!sheet.stage.law.position_open) {
+      100.0 * abort.overshoot, abort.calm_valve_rms);
+  if (!sheet.stage.controller.position_open) {
     sheet.abort += fmt::format(" or of the encoder error above {:.3g} mdeg",
-                               abort.still_encoder_rms / (io::gear_ratio(antenna) * millidegree));
+                               abort.calm_encoder_rms / (io::gear_ratio(antenna) * millidegree));
   }
   sheet.abort += ", or any ringing that does not decay. ";
   sheet.abort +=
@@ -97,23 +96,23 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
     }
   } else if (kind == StageKind::feedforward) {
     sheet.way_back = "Switch feedforward off: the loops are as they were.";
-  } else if (sheet.stage.law.position_open) {
+  } else if (sheet.stage.controller.position_open) {
     sheet.way_back = "Rate command to zero, then the gains of the stage before.";
-  } else if (before->stage.law.position_open) {
+  } else if (before->stage.controller.position_open) {
     sheet.way_back = "Open the position loop (rate command zero); the rate loop keeps its gains.";
   } else {
     sheet.way_back = "Open the position loop, set the gains of the stage before, close it again.";
   }
 }
 
-std::vector<StageGain> stage_gains(const io::GainUnits& units, const design::StageLaw& stage,
-                                   const design::StageLaw* before) {
-  const auto texts = units.texts(stage.law);
+std::vector<StageGain> stage_gains(const io::GainUnits& units, const design::StageController& stage,
+                                   const design::StageController* before) {
+  const auto texts = units.texts(stage.controller);
   std::vector<StageGain> gains;
   for (const auto& [place, changed] : acting_gains(stage, before)) {
-    const auto& description = stage.law.structure.gains()[place];
-    gains.push_back(
-        {description.symbol, description.name, texts[place], stage.law.gains[place], changed});
+    const auto& description = stage.controller.structure.gains()[place];
+    gains.push_back({description.symbol, description.name, texts[place],
+                     stage.controller.gains[place], changed});
   }
   return gains;
 }
@@ -146,18 +145,18 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
       "most {:.2f} on each of {} plants at every stage.",
       report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
       report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));
-  if (first.kind == StageKind::as_found && std::isfinite(first.expected.beam_rms.upper)) {
+  if (first.kind == StageKind::as_found && std::isfinite(first.expected.boresight_rms.upper)) {
     sentences.push_back(fmt::format(
         "Boresight rms per axis at {:g} m/s ({} wind, linear; {:g} % prediction interval over the "
         "plants): {} mdeg as found, {} mdeg at the end.",
         report.wind_speed, report.wind_model, 100.0 * report.options.confidence,
-        range(first.expected.beam_rms, sky, 3), range(last.expected.beam_rms, sky, 3)));
+        range(first.expected.boresight_rms, sky, 3), range(last.expected.boresight_rms, sky, 3)));
   } else {
     sentences.push_back(
         fmt::format("Boresight rms per axis at {:g} m/s ({} wind, linear; {:g} % prediction "
                     "interval over the plants) at the end: {} mdeg.",
                     report.wind_speed, report.wind_model, 100.0 * report.options.confidence,
-                    range(last.expected.beam_rms, sky, 3)));
+                    range(last.expected.boresight_rms, sky, 3)));
   }
 }
 
@@ -172,8 +171,8 @@ std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionRep
     const StageSheet* before = sheets.empty() ? nullptr : &sheets.back();
     StageSheet sheet;
     sheet.stage = report.plan.stages[i];
-    sheet.gains =
-        stage_gains(units, sheet.stage.law, before != nullptr ? &before->stage.law : nullptr);
+    sheet.gains = stage_gains(units, sheet.stage.controller,
+                              before != nullptr ? &before->stage.controller : nullptr);
     sheet.step = steps[i];
     describe_check(antenna, sheet);
     describe_abort(antenna, sheet, report);

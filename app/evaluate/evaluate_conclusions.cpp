@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/evaluate/draw_conclusions.hpp>
 #include <boresight/app/evaluate/pairs_by_structure.hpp>
 #include <boresight/app/evaluate/proposal_effects.hpp>
+#include <boresight/app/evaluate/sample_conclusions.hpp>
 #include <boresight/app/evaluate/unfit_candidates.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/sky_units.hpp>
@@ -22,8 +22,9 @@ namespace {
 
 // NaN without a stable law.
 double rms_of(const Candidate& candidate) {
-  const CandidateLaw* law = candidate.chosen_law();
-  return law == nullptr ? std::numeric_limits<double>::quiet_NaN() : law->compared_rms();
+  const CandidateController* controller = candidate.chosen_controller();
+  return controller == nullptr ? std::numeric_limits<double>::quiet_NaN()
+                               : controller->compared_rms();
 }
 
 // What has no cost may cost anything.
@@ -33,38 +34,39 @@ double cost_of(const Candidate& candidate) {
 
 std::string against_as_it_is(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
-  const CandidateLaw* law = base.chosen_law();
-  if (!base.path.empty() || law == nullptr || !std::isfinite(rms_of(base))) return "";
-  std::vector<std::string> better, worse, hunting;
+  const CandidateController* controller = base.chosen_controller();
+  if (!base.path.empty() || controller == nullptr || !std::isfinite(rms_of(base))) return "";
+  std::vector<std::string> better, worse, limit_cycles;
   for (const auto& candidate : section.candidates) {
     if (candidate.path.empty() || !std::isfinite(rms_of(candidate))) continue;
-    if (candidate.hunts()) hunting.push_back(candidate.name);
+    if (candidate.has_limit_cycle()) limit_cycles.push_back(candidate.name);
     if (!candidate.feasible()) continue;
     const double change = rms_of(candidate) / rms_of(base) - 1.0;
-    const std::string& loops = candidate.chosen_law()->structure;
+    const std::string& loops = candidate.chosen_controller()->structure;
     auto& list = change < 0.0 ? better : worse;
-    list.push_back(fmt::format("{:.1f} % by {}{}", 100.0 * std::abs(change), candidate.name,
-                               loops == law->structure ? "" : fmt::format(" ({} loops)", loops)));
+    list.push_back(
+        fmt::format("{:.1f} % by {}{}", 100.0 * std::abs(change), candidate.name,
+                    loops == controller->structure ? "" : fmt::format(" ({} loops)", loops)));
   }
   std::string text = fmt::format(
       "Conditions: {} loops on the antenna as it is, {} wind at {:.3g} m/s, gains re-tuned for "
       "each proposal{}. Rms boresight error over the plants, compared with the antenna as it is, "
       "re-tuned ({:.4f} mdeg{}): ",
-      law->structure, plant::to_string(section.wind_model), section.wind_speed,
+      controller->structure, plant::to_string(section.wind_model), section.wind_speed,
       section.time_domain ? ", each linear rms times the simulated/linear rms ratio of its "
                             "controller, with its limit "
                             "cycle in quadrature"
                           : ", linear loops only",
-      rms_of(base) / millidegree, base.hunts() ? ", with a limit cycle" : "");
+      rms_of(base) / millidegree, base.has_limit_cycle() ? ", with a limit cycle" : "");
   if (better.empty()) {
     text += worse.empty() ? "no eligible proposal to compare" : "no proposal lowers it";
   } else {
     text += fmt::format("lowered {}", fmt::join(better, ", "));
   }
   if (!worse.empty()) text += fmt::format("; raised {}", fmt::join(worse, ", "));
-  if (!hunting.empty()) {
+  if (!limit_cycles.empty()) {
     text += fmt::format(". Excluded, limit cycle beyond the tightest budget: {}",
-                        fmt::join(hunting, ", "));
+                        fmt::join(limit_cycles, ", "));
   }
   return text + ".";
 }
@@ -73,26 +75,27 @@ std::string against_as_it_is(const EvaluateSection& section) {
 // it chose another structure or order than the linear plant.
 std::string in_the_time_domain(const EvaluateSection& section) {
   if (!section.time_domain) return "";
-  std::vector<std::string> factors, hunting, failed;
+  std::vector<std::string> factors, limit_cycles, failed;
   const Candidate* linear = nullptr;
   const Candidate* simulated = nullptr;
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !law->time_domain) continue;
-    if (!std::isfinite(law->nonlinear_factor())) {
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr || !controller->time_domain) continue;
+    if (!std::isfinite(controller->simulated_to_linear_rms())) {
       failed.push_back(candidate.name);
       continue;
     }
-    factors.push_back(fmt::format("{} {:.2f}", candidate.name, law->nonlinear_factor()));
+    factors.push_back(
+        fmt::format("{} {:.2f}", candidate.name, controller->simulated_to_linear_rms()));
     double amplitude = 0.0;
-    for (const auto& one : law->time_domain->hunting) {
-      if (one.limit_cycle) amplitude = std::max(amplitude, one.beam_amplitude);
+    for (const auto& one : controller->time_domain->limit_cycles) {
+      if (one.limit_cycle) amplitude = std::max(amplitude, one.boresight_amplitude);
     }
     if (amplitude > 0.0) {
-      hunting.push_back(fmt::format("{} +-{:.2f}", candidate.name, amplitude / millidegree));
+      limit_cycles.push_back(fmt::format("{} +-{:.2f}", candidate.name, amplitude / millidegree));
     }
-    if (!law->usable()) continue;
-    if (linear == nullptr || law->member_rms < linear->chosen_law()->member_rms)
+    if (!controller->usable()) continue;
+    if (linear == nullptr || controller->member_rms < linear->chosen_controller()->member_rms)
       linear = &candidate;
     if (simulated == nullptr || rms_of(candidate) < rms_of(*simulated)) simulated = &candidate;
   }
@@ -104,9 +107,9 @@ std::string in_the_time_domain(const EvaluateSection& section) {
     text += fmt::format(" {} has the lowest linear rms, {} the lowest simulated rms.", linear->name,
                         simulated->name);
   }
-  if (!hunting.empty()) {
+  if (!limit_cycles.empty()) {
     text += fmt::format(" Limit cycles of the boresight (mdeg, at rest or tracking): {}.",
-                        fmt::join(hunting, ", "));
+                        fmt::join(limit_cycles, ", "));
   }
   if (!failed.empty()) {
     text += fmt::format(" Simulation not completed, not compared: {}.", fmt::join(failed, ", "));
@@ -125,10 +128,10 @@ std::string on_the_front(const EvaluateSection& section) {
       const auto& before = section.candidates[section.front[k - 1]];
       const double gained = (rms_of(before) - rms_of(candidate)) / millidegree;
       const double paid = cost_of(candidate) - cost_of(before);
-      const double share = 1.0 - rms_of(candidate) / rms_of(before);
-      if (share < negligible_change) {
+      const double fraction = 1.0 - rms_of(candidate) / rms_of(before);
+      if (fraction < negligible_change) {
         step += fmt::format(", only {:.1f} % below the previous one: not worth its cost",
-                            100.0 * share);
+                            100.0 * fraction);
       } else if (gained > 0.0 && paid > 0.0) {
         step += fmt::format(", {:.0f} {} per mdeg of improvement", paid / gained, section.currency);
       }
@@ -191,13 +194,13 @@ std::vector<std::string> short_of_slewing(const EvaluateSection& section) {
 }
 
 std::string out_of_reach(const EvaluateSection& section) {
-  std::vector<std::string> infeasible, hunting;
+  std::vector<std::string> infeasible, limit_cycles;
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    if (candidate.hunts() && law->time_domain) {
-      hunting.push_back(
-          fmt::format("{} with {} (+-{:.2f} mdeg)", candidate.name, law->structure,
-                      design::hunting_amplitude(law->time_domain->hunting) / millidegree));
+    const CandidateController* controller = candidate.chosen_controller();
+    if (candidate.has_limit_cycle() && controller->time_domain) {
+      limit_cycles.push_back(fmt::format(
+          "{} with {} (+-{:.2f} mdeg)", candidate.name, controller->structure,
+          design::limit_cycle_amplitude(controller->time_domain->limit_cycles) / millidegree));
     } else if (!candidate.feasible()) {
       infeasible.push_back(candidate.name);
     }
@@ -209,24 +212,26 @@ std::string out_of_reach(const EvaluateSection& section) {
                                  "every plant and passes its verification.",
                                  fmt::join(infeasible, ", ")));
   }
-  if (!hunting.empty()) {
+  if (!limit_cycles.empty()) {
     sentences.push_back(fmt::format("Excluded, limit cycle beyond the tightest budget: {}.",
-                                    fmt::join(hunting, ", ")));
+                                    fmt::join(limit_cycles, ", ")));
   }
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
 // Of the laws compared.
 std::string ended_at_bounds(const EvaluateSection& section) {
-  std::vector<SearchedLaw> laws;
+  std::vector<SearchedController> controllers;
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr) continue;
-    laws.push_back({fmt::format("{} ({})", candidate.name, law->structure), &law->design.tuning});
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr) continue;
+    controllers.push_back({fmt::format("{} ({})", candidate.name, controller->structure),
+                           &controller->design.tuning});
   }
-  std::vector<std::string> sentences = gains_at_bounds(laws);
-  if (std::ranges::any_of(
-          laws, [](const SearchedLaw& law) { return ends_at_position_gain(*law.tuning); })) {
+  std::vector<std::string> sentences = gains_at_bounds(controllers);
+  if (std::ranges::any_of(controllers, [](const SearchedController& controller) {
+        return ends_at_position_gain(*controller.tuning);
+      })) {
     sentences.emplace_back(trade_not_looked_for());
   }
   return fmt::format("{}", fmt::join(sentences, " "));
@@ -255,7 +260,7 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
   if (section.wind_mast) add(conclude_mast(*section.wind_mast));
   add(none_chosen(section));
   add(against_as_it_is(section));
-  if (section.decision) add(law_or_hardware(section, *section.decision));
+  if (section.decision) add(controller_or_hardware(section, *section.decision));
   add(in_the_time_domain(section));
   for (auto& need : unmet_needs(section)) add(std::move(need));
   add(plants_within_needs(section));
@@ -263,7 +268,7 @@ std::vector<std::string> conclude(const EvaluateSection& section) {
   add(on_the_front(section));
   add(without_cost(section));
   if (section.decision) {
-    for (auto& text : conclude_draws(section, *section.decision)) add(std::move(text));
+    for (auto& text : conclude_samples(section, *section.decision)) add(std::move(text));
   }
   add(out_of_reach(section));
   add(ended_at_bounds(section));

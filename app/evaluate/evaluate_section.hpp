@@ -11,9 +11,9 @@
 
 namespace boresight::app {
 
-using design::CandidateDraws;
+using design::CandidateController;
 using design::CandidateFigures;
-using design::CandidateLaw;
+using design::CandidateSamples;
 using design::PairByStructure;
 using design::SameStructure;
 using design::SlewFigures;
@@ -27,7 +27,7 @@ struct Candidate : design::ProposedDesign {
   bool cost_assumed = false;
   std::vector<std::string> risks;
   std::vector<io::ChangeRow> changes;
-  std::vector<io::DerivedChange> consequences;
+  std::vector<io::DerivedChange> derived_quantities;
   /// Gains of each controller in the engineer's units; empty for an unstable one.
   std::vector<std::vector<std::string>> gains;
 };

@@ -27,13 +27,13 @@ Candidate described(const io::ProposedCase& proposed, const io::Proposal* propos
   }
   candidate.risks = proposal->risks;
   candidate.changes = proposed.changes;
-  candidate.consequences = proposed.consequences;
+  candidate.derived_quantities = proposed.derived_quantities;
   return candidate;
 }
 
 std::string_view reason(design::NotDrawn why) {
   switch (why) {
-    case design::NotDrawn::no_stable_law:
+    case design::NotDrawn::no_stable_controller:
       return "has no stable controller";
     case design::NotDrawn::run_not_completed:
       return "did not complete its run on the nonlinear antenna";
@@ -45,7 +45,7 @@ std::string_view reason(design::TestsNotValued why) {
   switch (why) {
     case design::TestsNotValued::fewer_than_two_fit:
       return "fewer than two candidates are eligible";
-    case design::TestsNotValued::unstable_on_some_draws:
+    case design::TestsNotValued::unstable_on_some_samples:
       return "a candidate is unstable on some samples, so its loss is infinite";
   }
   return "";
@@ -108,9 +108,10 @@ EvaluateSection evaluate_proposals(const io::Case& antenna,
     Candidate candidate = described(proposed, place == 0 ? nullptr : &proposals[place - 1]);
     static_cast<design::ProposedDesign&>(candidate) = std::move(design);
     const io::GainUnits units(proposed.antenna);
-    for (const auto& law : candidate.laws) {
-      candidate.gains.push_back(law.ensemble ? units.texts(law.design.tuning.law)
-                                             : std::vector<std::string>{});
+    for (const auto& controller : candidate.controllers) {
+      candidate.gains.push_back(controller.ensemble
+                                    ? units.texts(controller.design.tuning.controller)
+                                    : std::vector<std::string>{});
     }
     section.candidates.push_back(std::move(candidate));
   }

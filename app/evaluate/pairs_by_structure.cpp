@@ -19,20 +19,21 @@ struct Winner {
 };
 
 std::string with_loops(const Candidate& candidate) {
-  const CandidateLaw* law = candidate.chosen_law();
-  return fmt::format("{} ({})", candidate.name, law == nullptr ? "-" : law->structure);
+  const CandidateController* controller = candidate.chosen_controller();
+  return fmt::format("{} ({})", candidate.name,
+                     controller == nullptr ? "-" : controller->structure);
 }
 
 // What the gains with one structure on both say of the gain with the laws chosen.
 std::string verdict(const Winner& pair, const PairByStructure& found) {
   int better = 0, worse = 0;
-  double least = HUGE_VAL, most = 0.0;
+  double minimum = HUGE_VAL, maximum = 0.0;
   for (const auto& one : found.structures) {
     const double gain = pair.sign * one.mean_gain;
     if (gain > 2.0 * one.gain_error) ++better;
     if (gain < -2.0 * one.gain_error) ++worse;
-    least = std::min(least, gain);
-    most = std::max(most, gain);
+    minimum = std::min(minimum, gain);
+    maximum = std::max(maximum, gain);
   }
   const auto all = static_cast<int>(found.structures.size());
   if (better > 0 && worse > 0) {
@@ -43,17 +44,17 @@ std::string verdict(const Winner& pair, const PairByStructure& found) {
                ? "the gain comes from the controller; with equal structures the order reverses"
                : "the gain comes from the controller; the hardware makes no difference";
   }
-  if (least >= pair.gain) return "the gain comes from the hardware, whatever the controller";
+  if (minimum >= pair.gain) return "the gain comes from the hardware, whatever the controller";
   if (better < all) {
     return fmt::format("the hardware contributes at most {:.4f} mdeg, the controller the rest",
-                       std::min(most, pair.gain));
+                       std::min(maximum, pair.gain));
   }
-  const double upper = std::min(most, pair.gain);
-  return upper - least < 5e-5
-             ? fmt::format("the hardware contributes {:.4f} mdeg, the controller the rest", least)
+  const double upper = std::min(maximum, pair.gain);
+  return upper - minimum < 5e-5
+             ? fmt::format("the hardware contributes {:.4f} mdeg, the controller the rest", minimum)
              : fmt::format(
-                   "the hardware contributes {:.4f} to {:.4f} mdeg, the controller the rest", least,
-                   upper);
+                   "the hardware contributes {:.4f} to {:.4f} mdeg, the controller the rest",
+                   minimum, upper);
 }
 
 std::string under_one_structure(const Winner& pair, const PairByStructure& found) {
@@ -107,7 +108,8 @@ std::optional<Winner> winner_of(const EvaluateSection& section, const DecisionSe
 
 }  // namespace
 
-std::string law_or_hardware(const EvaluateSection& section, const DecisionSection& decision) {
+std::string controller_or_hardware(const EvaluateSection& section,
+                                   const DecisionSection& decision) {
   std::vector<std::string> sentences, untold;
   for (const auto& found : decision.by_structure) {
     const auto pair = winner_of(section, decision, found);
@@ -127,8 +129,8 @@ std::string law_or_hardware(const EvaluateSection& section, const DecisionSectio
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
-std::string law_or_hardware(const EvaluateSection& section, const DecisionSection& decision,
-                            std::size_t place) {
+std::string controller_or_hardware(const EvaluateSection& section, const DecisionSection& decision,
+                                   std::size_t place) {
   std::vector<std::string> sentences;
   for (const auto& found : decision.by_structure) {
     if (found.first != place && found.second != place) continue;

@@ -41,57 +41,61 @@ std::string changes_of(const EvaluateSection& section, const char* quantity, con
 }
 
 // Half of peak to peak of the beam (rad); 0 where nothing was seen.
-double limit_cycle_of(const CandidateLaw& law) {
-  return law.time_domain ? design::hunting_amplitude(law.time_domain->hunting) : 0.0;
+double limit_cycle_of(const CandidateController& controller) {
+  return controller.time_domain
+             ? design::limit_cycle_amplitude(controller.time_domain->limit_cycles)
+             : 0.0;
 }
 
 bool moves_otherwise(const Candidate& candidate, const Candidate& base) {
   const auto error = candidate.reversal_error(), own = base.reversal_error();
   if (error && own && worth_a_sentence(*error / *own - 1.0)) return true;
-  const CandidateLaw* law = candidate.chosen_law();
-  const CandidateLaw* base_law = base.chosen_law();
-  if (law == nullptr || base_law == nullptr) return false;
-  const double cycle = limit_cycle_of(*law), own_cycle = limit_cycle_of(*base_law);
+  const CandidateController* controller = candidate.chosen_controller();
+  const CandidateController* base_controller = base.chosen_controller();
+  if (controller == nullptr || base_controller == nullptr) return false;
+  const double cycle = limit_cycle_of(*controller), own_cycle = limit_cycle_of(*base_controller);
   return own_cycle > 0.0 ? worth_a_sentence(cycle / own_cycle - 1.0) : cycle > 0.0;
 }
 
 // Which proposals' changes of reversals and hunting their laws may have made; empty without such.
-std::string laws_of_other_families(const EvaluateSection& section) {
+std::string controllers_of_other_families(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
-  const CandidateLaw* own = base.chosen_law();
+  const CandidateController* own = base.chosen_controller();
   if (!base.path.empty() || own == nullptr) return "";
-  std::vector<std::string> laws;
+  std::vector<std::string> controllers;
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    if (candidate.path.empty() || law == nullptr || !moves_otherwise(candidate, base)) continue;
+    const CandidateController* controller = candidate.chosen_controller();
+    if (candidate.path.empty() || controller == nullptr || !moves_otherwise(candidate, base))
+      continue;
     std::vector<std::string> gains;
-    for (const std::size_t k : other_family(*law, *own)) {
-      const auto& gain = law->design.tuning.law.structure.gains()[k];
-      gains.push_back(fmt::format("{} {:.3g} against {:.3g}{}", gain.symbol,
-                                  law->design.tuning.law.gains[k], own->design.tuning.law.gains[k],
-                                  gain.unit == "1" ? "" : " " + gain.unit));
+    for (const std::size_t k : other_family(*controller, *own)) {
+      const auto& gain = controller->design.tuning.controller.structure.gains()[k];
+      gains.push_back(fmt::format(
+          "{} {:.3g} against {:.3g}{}", gain.symbol, controller->design.tuning.controller.gains[k],
+          own->design.tuning.controller.gains[k], gain.unit == "1" ? "" : " " + gain.unit));
     }
     if (gains.empty()) continue;
-    laws.push_back(
+    controllers.push_back(
         fmt::format("{} has a different kind of {} controller from the antenna as it is: {}",
-                    candidate.name, law->structure, fmt::join(gains, ", ")));
+                    candidate.name, controller->structure, fmt::join(gains, ", ")));
   }
-  if (laws.empty()) return "";
+  if (controllers.empty()) return "";
   return fmt::format(
       "{}. Differences in reversal error and limit cycle may come from the controller, not the "
       "hardware. Narrow the search with [[tuning.bound]], or the bounds of a [[loop]], to obtain "
       "one kind.",
-      fmt::join(laws, "; "));
+      fmt::join(controllers, "; "));
 }
 
 }  // namespace
 
-std::vector<std::size_t> other_family(const CandidateLaw& law, const CandidateLaw& other) {
+std::vector<std::size_t> other_family(const CandidateController& controller,
+                                      const CandidateController& other) {
   constexpr double far_apart = 5.0;
-  const auto& gains = law.design.tuning.law.gains;
-  const auto& others = other.design.tuning.law.gains;
+  const auto& gains = controller.design.tuning.controller.gains;
+  const auto& others = other.design.tuning.controller.gains;
   std::vector<std::size_t> places;
-  if (law.structure != other.structure || gains.size() != others.size()) return places;
+  if (controller.structure != other.structure || gains.size() != others.size()) return places;
   for (std::size_t k = 0; k < gains.size(); ++k) {
     if (std::max(gains[k], others[k]) > far_apart * std::min(gains[k], others[k])) {
       places.push_back(k);
@@ -114,7 +118,8 @@ std::string changed_motion(const EvaluateSection& section) {
                    if (!candidate.figures || !candidate.figures->slew) return std::nullopt;
                    return candidate.figures->slew->reachable_acceleration / degree;
                  });
-  std::vector<std::string> sentences{reversal, laws_of_other_families(section), acceleration};
+  std::vector<std::string> sentences{reversal, controllers_of_other_families(section),
+                                     acceleration};
   std::erase_if(sentences, [](const std::string& one) { return one.empty(); });
   return fmt::format("{}", fmt::join(sentences, " "));
 }
@@ -126,9 +131,9 @@ std::string plants_within_needs(const EvaluateSection& section) {
     if (!budget.wind_speed) continue;
     std::vector<std::string> counts;
     for (const auto& candidate : section.candidates) {
-      const CandidateLaw* law = candidate.chosen_law();
-      if (law == nullptr || i >= law->budgets_met.size()) continue;
-      const auto& met = law->budgets_met[i];
+      const CandidateController* controller = candidate.chosen_controller();
+      if (controller == nullptr || i >= controller->budgets_met.size()) continue;
+      const auto& met = controller->budgets_met[i];
       if (met) counts.push_back(fmt::format("{} on {}", candidate.name, *met));
     }
     if (counts.empty()) continue;

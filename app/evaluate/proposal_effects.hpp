@@ -12,7 +12,8 @@ namespace boresight::app {
 /// structure. Such gains suggest different local optima of the searches: a hardware change seldom
 /// moves one optimum that far. Empty if no gain differs so much, for different structures, or
 /// without gains.
-std::vector<std::size_t> other_family(const CandidateLaw& law, const CandidateLaw& other);
+std::vector<std::size_t> other_family(const CandidateController& controller,
+                                      const CandidateController& other);
 
 /// Proposals that change the peak boresight error at a velocity reversal, or the drive's largest
 /// acceleration, by more than a tenth of the present antenna's value; one sentence each. Of the

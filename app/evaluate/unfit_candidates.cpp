@@ -19,23 +19,23 @@ std::optional<double> reached_speed(const Candidate& candidate, std::size_t budg
   if (!candidate.figures || budget >= candidate.figures->speed_limits.size()) return std::nullopt;
   const double limit = candidate.figures->speed_limits[budget];
   if (std::isnan(limit)) return std::nullopt;
-  return std::min(limit, candidate.figures->supply_wind_speed);
+  return std::min(limit, candidate.figures->torque_limited_wind_speed);
 }
 
 }  // namespace
 
 std::string_view why_not(const Candidate& candidate) {
-  const CandidateLaw* law = candidate.chosen_law();
-  if (law == nullptr) return "has no stable controller";
-  if (!law->goals_met) return "violates a constraint on some plant";
-  return candidate.hunts() ? "has a limit cycle beyond the tightest budget"
-                           : "fails its verification";
+  const CandidateController* controller = candidate.chosen_controller();
+  if (controller == nullptr) return "has no stable controller";
+  if (!controller->constraints_met) return "violates a constraint on some plant";
+  return candidate.has_limit_cycle() ? "has a limit cycle beyond the tightest budget"
+                                     : "fails its verification";
 }
 
-std::vector<std::string> hunting_candidates(const EvaluateSection& section) {
+std::vector<std::string> limit_cycle_candidates(const EvaluateSection& section) {
   std::vector<std::string> names;
   for (const auto& candidate : section.candidates) {
-    if (candidate.hunts()) names.push_back(candidate.name);
+    if (candidate.has_limit_cycle()) names.push_back(candidate.name);
   }
   return names;
 }
@@ -65,12 +65,12 @@ std::string none_chosen(const EvaluateSection& section) {
   const auto feasible = [](const Candidate* one) { return one->feasible(); };
   if (proposals.empty() || std::ranges::any_of(proposals, feasible)) return "";
   const bool stays = base != nullptr && base->feasible();
-  if (std::ranges::all_of(proposals, [](const Candidate* one) { return one->hunts(); })) {
+  if (std::ranges::all_of(proposals, [](const Candidate* one) { return one->has_limit_cycle(); })) {
     return fmt::format("{} a limit cycle beyond the tightest budget{}: none is chosen.",
                        proposals.size() == 1 ? "The proposal has" : "All proposals have",
-                       base != nullptr && base->hunts() ? ", as does the antenna as it is"
-                       : stays                          ? ", unlike the antenna as it is"
-                                                        : "");
+                       base != nullptr && base->has_limit_cycle() ? ", as does the antenna as it is"
+                       : stays                                    ? ", unlike the antenna as it is"
+                                                                  : "");
   }
   std::vector<std::string> reasons;
   std::ranges::transform(proposals, std::back_inserter(reasons), [](const Candidate* one) {

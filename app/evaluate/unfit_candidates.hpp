@@ -16,7 +16,7 @@ std::string_view why_not(const Candidate& candidate);
 std::string none_chosen(const EvaluateSection& section);
 
 /// Names of the candidates that are not eligible only because of their limit cycle.
-std::vector<std::string> hunting_candidates(const EvaluateSection& section);
+std::vector<std::string> limit_cycle_candidates(const EvaluateSection& section);
 
 /// Names of the candidates that are not eligible but are the best of all in some sample:
 /// probabilities to be best and regrets include them.

@@ -9,16 +9,16 @@
 namespace boresight::app {
 namespace {
 
-double round_step(double least, bool angle) {
-  if (angle && least > 10.0) {
+double round_step(double minimum, bool angle) {
+  if (angle && minimum > 10.0) {
     for (const double step : {15.0, 30.0, 45.0, 90.0, 180.0, 360.0}) {
-      if (least <= step * 1.000001) return step;
+      if (minimum <= step * 1.000001) return step;
     }
-    return 360.0 * std::ceil(least / 360.0);
+    return 360.0 * std::ceil(minimum / 360.0);
   }
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  const double power = std::pow(10.0, std::floor(std::log10(minimum)));
   for (const double factor : {1.0, 2.0, 5.0}) {
-    if (least <= factor * power * 1.000001) return factor * power;
+    if (minimum <= factor * power * 1.000001) return factor * power;
   }
   return 10.0 * power;
 }

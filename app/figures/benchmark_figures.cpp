@@ -14,7 +14,7 @@ namespace boresight::app {
 namespace {
 
 constexpr double per_meganewton = 1e6 / millidegree;  // rad/(N m) to mdeg/(MN m)
-constexpr std::size_t course_points = 1000;
+constexpr std::size_t response_samples = 1000;
 
 std::string conditions(const BenchmarkReport& report) {
   return fmt::format(
@@ -40,7 +40,7 @@ Figure compliance(const BenchmarkReport& report) {
   panel.marks.push_back({report.score.worst.frequency / two_pi,
                          report.score.worst.lower * per_meganewton,
                          fmt::format("worst, {:.3g} Hz", report.score.worst.frequency / two_pi)});
-  panel.lines.push_back(horizontal_line(report.score.encoder_held_compliance * per_meganewton,
+  panel.lines.push_back(horizontal_line(report.score.flexure_compliance * per_meganewton,
                                         "flexure with the encoder fixed"));
   Figure figure =
       make_figure("compliance", "Torque at the dish", "Compliance of the boresight",
@@ -50,17 +50,17 @@ Figure compliance(const BenchmarkReport& report) {
   return figure;
 }
 
-Figure course(const BenchmarkReport& report, const std::vector<control::CoursePoint>& points,
-              const control::CourseScore& score, const std::string& id, const std::string& title,
+Figure course(const BenchmarkReport& report, const std::vector<control::ResponseSample>& points,
+              const control::ResponseScore& score, const std::string& id, const std::string& title,
               const std::string& unit) {
   const double factor = per_meganewton / std::pow(report.gear_ratio, 2);
   const auto count = static_cast<Eigen::Index>(points.size());
-  Eigen::VectorXd time(count), beam(count);
+  Eigen::VectorXd time(count), boresight(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     time[i] = points[static_cast<std::size_t>(i)].time;
-    beam[i] = points[static_cast<std::size_t>(i)].beam * factor;
+    boresight[i] = points[static_cast<std::size_t>(i)].boresight * factor;
   }
-  const auto drawn = thinned(time, beam, course_points);
+  const auto drawn = thinned(time, boresight, response_samples);
   FigurePanel panel = make_panel(make_axis("boresight", unit));
   panel.series.push_back(make_series("this controller", SeriesStyle::line, drawn.x, drawn.y));
   panel.lines.push_back(horizontal_line(score.final_value * per_meganewton, "final value"));
@@ -95,13 +95,13 @@ Figure winds(const BenchmarkReport& report) {
     if (!wind.attitude.empty()) continue;
     FigureSeries& series = of(fmt::format("model {}", plant::to_string(wind.model)));
     series.x.push_back(wind.mean_speed);
-    series.y.push_back(wind.beam_rms / millidegree);
+    series.y.push_back(wind.boresight_rms / millidegree);
   }
   if (report.compared_sheet && !report.compared_sheet->wind_speed.empty()) {
     const auto& other = *report.compared_sheet;
     panel.series.push_back(
         make_series(fmt::format("compared sheet, model {}", plant::to_string(report.wind.model)),
-                    SeriesStyle::dashed, other.wind_speed, other.beam_rms));
+                    SeriesStyle::dashed, other.wind_speed, other.boresight_rms));
   }
   draw_budgets(report, panel);
   Figure figure =
@@ -142,7 +142,7 @@ Figure attitudes(const BenchmarkReport& report) {
       found = series.end() - 1;
     }
     found->x.push_back(wind.mean_speed);
-    found->y.push_back(wind.beam_rms / millidegree);
+    found->y.push_back(wind.boresight_rms / millidegree);
   }
   return figure;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include <boresight/app/figures/figure.hpp>
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 
 namespace boresight::app {
 

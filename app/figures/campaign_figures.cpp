@@ -24,7 +24,7 @@ std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
       make_figure("campaign-correlation", fit_heading, "Correlated estimates",
                   fmt::format("Correlation of the combined estimates over {} samples: near +-1 the "
                               "records determine only a combination of the two quantities.",
-                              fit.draws.size()),
+                              fit.random_samples.size()),
                   make_axis("correlation", ""));
   FigurePanel panel;
   for (const auto& q : fit.quantities) panel.y.categories.push_back(q.name);
@@ -46,7 +46,7 @@ std::vector<Figure> correlation_figure(const io::CampaignSection& section) {
 // Stated numbers that the records speak of, in standard uncertainties.
 std::vector<Figure> contradiction_figure(const io::CampaignSection& section) {
   if (section.contradictions.empty()) return {};
-  constexpr double most = 20.0;
+  constexpr double maximum = 20.0;
   Figure figure =
       make_figure("campaign-contradictions", "Stated numbers that the records contradict",
                   "Records against the case",
@@ -56,7 +56,7 @@ std::vector<Figure> contradiction_figure(const io::CampaignSection& section) {
   FigurePanel panel;
   FigureSeries bars = make_series("records minus stated", SeriesStyle::bars);
   for (const auto& one : section.contradictions) {
-    bars.x.push_back(std::clamp(one.normalised, -most, most));
+    bars.x.push_back(std::clamp(one.normalised, -maximum, maximum));
     bars.y.push_back(static_cast<double>(panel.y.categories.size()));
     panel.y.categories.push_back(one.key);
   }

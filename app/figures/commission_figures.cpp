@@ -120,15 +120,15 @@ Figure responses(const CommissionReport& report) {
       [](const StageExpectation& e) -> const design::PlantBand& { return e.rise_time; }, {}));
   figure.panels.push_back(expected_panel(
       report, make_axis("valve rms, still air", "rad/s"), 1.0,
-      [](const StageExpectation& e) -> const design::PlantBand& { return e.still_valve; },
-      [](const AbortLimits& abort) { return abort.still_valve_rms; }));
+      [](const StageExpectation& e) -> const design::PlantBand& { return e.calm_valve; },
+      [](const AbortLimits& abort) { return abort.calm_valve_rms; }));
   figure.panels.push_back(expected_panel(
       report, make_axis("encoder rms, still air", "mdeg"), sky,
-      [](const StageExpectation& e) -> const design::PlantBand& { return e.still_encoder; },
-      [](const AbortLimits& abort) { return abort.still_encoder_rms; }));
+      [](const StageExpectation& e) -> const design::PlantBand& { return e.calm_encoder; },
+      [](const AbortLimits& abort) { return abort.calm_encoder_rms; }));
   figure.panels.push_back(expected_panel(
       report, make_axis(fmt::format("boresight rms, {:.3g} m/s", report.wind_speed), "mdeg"), sky,
-      [](const StageExpectation& e) -> const design::PlantBand& { return e.beam_rms; }, {}));
+      [](const StageExpectation& e) -> const design::PlantBand& { return e.boresight_rms; }, {}));
   std::erase_if(figure.panels, [](const FigurePanel& panel) { return !has_points(panel); });
   return figure;
 }

@@ -24,13 +24,14 @@ std::string band_sentence(const design::EnsembleCurves& curves) {
   return fmt::format("Band: {}, gains fixed. ", range_name(curves));
 }
 
-Figure sensitivity_over_ensemble(const DrawnLaw& drawn, const design::EnsembleCurves& curves) {
-  Figure figure = law_figure(drawn, "ensemble-sensitivity", "Sensitivity over the ensemble");
+Figure sensitivity_over_ensemble(const DrawnController& drawn,
+                                 const design::EnsembleCurves& curves) {
+  Figure figure = controller_figure(drawn, "ensemble-sensitivity", "Sensitivity over the ensemble");
   figure.caption =
       "Magnitude of 1/(1 + L) with the loop broken in the rate loop (position loop open), at the "
       "valve command and in the position loop. Dashed: the member of the highest Ms at that "
       "break. " +
-      band_sentence(curves) + law_conditions(drawn);
+      band_sentence(curves) + controller_conditions(drawn);
   const std::vector<double> hertz = in_hertz(curves.frequency);
   figure.x.lowest = hertz.front();
   for (std::size_t b = 0; b < curves.sensitivity.size(); ++b) {
@@ -53,12 +54,13 @@ Figure sensitivity_over_ensemble(const DrawnLaw& drawn, const design::EnsembleCu
   return figure;
 }
 
-Figure step_figure(const DrawnLaw& drawn, const design::EnsembleCurves& curves,
+Figure step_figure(const DrawnController& drawn, const design::EnsembleCurves& curves,
                    const design::StepOverEnsemble& step, const char* id, const char* title,
                    const std::string& what) {
-  Figure figure = law_figure(drawn, id, title);
+  Figure figure = controller_figure(drawn, id, title);
   figure.caption = what + " after a unit step of the command, continuous, without command " +
-                   "preprocessor and feedforward. " + band_sentence(curves) + law_conditions(drawn);
+                   "preprocessor and feedforward. " + band_sentence(curves) +
+                   controller_conditions(drawn);
   figure.x = make_axis("time", "s");
   FigurePanel panel = make_panel(make_axis("response per step", ""));
   panel.series.push_back(banded(range_name(curves), numbers(step.time), step.response));
@@ -83,7 +85,7 @@ std::string range_name(const design::EnsembleCurves& curves) {
                      curves.members);
 }
 
-std::vector<Figure> ensemble_figures(const DrawnLaw& drawn) {
+std::vector<Figure> ensemble_figures(const DrawnController& drawn) {
   if (!drawn.curves) return {};
   const design::EnsembleCurves& curves = *drawn.curves;
   return {sensitivity_over_ensemble(drawn, curves),

@@ -48,21 +48,22 @@ Figure front_figure(const EvaluateSection& section) {
                       .style = SeriesStyle::points};
   FigureSeries front{.name = "Pareto front", .style = SeriesStyle::steps};
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !candidate.cost || !std::isfinite(law->compared_rms())) continue;
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr || !candidate.cost || !std::isfinite(controller->compared_rms()))
+      continue;
     FigureSeries& series = candidate.feasible() ? meets : misses;
     series.x.push_back(*candidate.cost);
     series.x_lower.push_back(*candidate.cost - candidate.cost_uncertainty);
     series.x_upper.push_back(*candidate.cost + candidate.cost_uncertainty);
-    series.y.push_back(finite_rms(law->compared_rms()));
+    series.y.push_back(finite_rms(controller->compared_rms()));
     series.labels.push_back(candidate.name);
   }
   for (const std::size_t place : section.front) {
     const Candidate& candidate = section.candidates[place];
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !candidate.cost) continue;
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr || !candidate.cost) continue;
     front.x.push_back(*candidate.cost);
-    front.y.push_back(finite_rms(law->compared_rms()));
+    front.y.push_back(finite_rms(controller->compared_rms()));
   }
   if (!meets.x.empty()) panel.series.push_back(std::move(meets));
   if (front.x.size() > 1) panel.series.push_back(std::move(front));
@@ -84,13 +85,15 @@ Figure spread_figure(const EvaluateSection& section) {
   FigurePanel panel;
   FigureSeries spread{.style = SeriesStyle::points};
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !law->ensemble || !std::isfinite(law->ensemble->median_rms)) continue;
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr || !controller->ensemble ||
+        !std::isfinite(controller->ensemble->median_rms))
+      continue;
     const auto place = static_cast<double>(panel.y.categories.size());
     panel.y.categories.push_back(candidate.name);
-    spread.x.push_back(finite_rms(law->ensemble->median_rms));
-    spread.x_lower.push_back(finite_rms(law->ensemble->least_rms));
-    spread.x_upper.push_back(finite_rms(law->ensemble->largest_rms));
+    spread.x.push_back(finite_rms(controller->ensemble->median_rms));
+    spread.x_lower.push_back(finite_rms(controller->ensemble->min_rms));
+    spread.x_upper.push_back(finite_rms(controller->ensemble->largest_rms));
     spread.y.push_back(place);
   }
   double largest = 0.0;
@@ -107,20 +110,20 @@ Figure spread_figure(const EvaluateSection& section) {
 }
 
 // A panel of shares by name, from probabilities.
-struct NamedShare {
+struct NamedFraction {
   std::string name;
-  design::Probability share;
+  design::Probability fraction;
 };
-FigurePanel share_panel(const std::string& label, const std::vector<NamedShare>& shares) {
+FigurePanel share_panel(const std::string& label, const std::vector<NamedFraction>& fractions) {
   FigurePanel panel;
   panel.y.label = label;
   FigureSeries series{.style = SeriesStyle::points};
-  for (const auto& [name, share] : shares) {
+  for (const auto& [name, fraction] : fractions) {
     series.y.push_back(static_cast<double>(panel.y.categories.size()));
     panel.y.categories.push_back(name);
-    series.x.push_back(share.value);
-    series.x_lower.push_back(share.lower);
-    series.x_upper.push_back(share.upper);
+    series.x.push_back(fraction.value);
+    series.x_lower.push_back(fraction.lower);
+    series.x_upper.push_back(fraction.upper);
   }
   panel.series.push_back(std::move(series));
   return panel;
@@ -128,7 +131,7 @@ FigurePanel share_panel(const std::string& label, const std::vector<NamedShare>&
 
 Figure chances_figure(const EvaluateSection& section, const DecisionSection& decision) {
   Figure figure;
-  figure.id = "chances";
+  figure.id = "probabilities";
   figure.section = heading_of(decision);
   const std::string& best = name_of(section, decision, decision.best);
   figure.title = "Probability that a proposal is best";
@@ -136,11 +139,11 @@ Figure chances_figure(const EvaluateSection& section, const DecisionSection& dec
       "Probability of the lowest boresight rms, and that '{}' (lowest mean rms) beats each other "
       "proposal on the same plant, ties counted half. {} samples, fixed gains, 95 % sampling "
       "intervals.",
-      best, decision.draws);
+      best, decision.random_samples);
   figure.x = {.label = "probability", .lowest = 0.0, .highest = 1.0};
-  std::vector<NamedShare> least, pairs;
+  std::vector<NamedFraction> minimum, pairs;
   for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
-    least.push_back({name_of(section, decision, i), decision.statistics.options[i].best});
+    minimum.push_back({name_of(section, decision, i), decision.statistics.options[i].best});
   }
   for (const auto& pair : decision.statistics.pairs) {
     const auto& better = pair.better;
@@ -151,7 +154,7 @@ Figure chances_figure(const EvaluateSection& section, const DecisionSection& dec
                        {1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower}});
     }
   }
-  figure.panels.push_back(share_panel("lowest of all", least));
+  figure.panels.push_back(share_panel("lowest of all", minimum));
   if (!pairs.empty()) {
     figure.panels.push_back(share_panel(fmt::format("'{}' is better than", best), pairs));
     figure.panels.back().lines.push_back({FigureLine::Direction::vertical, 0.5, ""});
@@ -180,8 +183,8 @@ Figure tornado_figure(const EvaluateSection& section, const DecisionSection& dec
   FigurePanel panel;
   FigureSeries low{.name = "at 5 %", .style = SeriesStyle::bars};
   FigureSeries high{.name = "at 95 %", .style = SeriesStyle::bars};
-  constexpr std::size_t most = 12;
-  for (std::size_t i = 0; i < std::min(tornado.bars.size(), most); ++i) {
+  constexpr std::size_t maximum = 12;
+  for (std::size_t i = 0; i < std::min(tornado.bars.size(), maximum); ++i) {
     const auto& bar = tornado.bars[i];
     panel.y.categories.push_back(decision.inputs[bar.input]);
     const auto add = [&](FigureSeries& series, double value) {
@@ -215,8 +218,8 @@ Figure sobol_figure(const EvaluateSection& section, const DecisionSection& decis
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return indices.inputs[a].total.value > indices.inputs[b].total.value;
   });
-  constexpr std::size_t most = 12;
-  order.resize(std::min(order.size(), most));
+  constexpr std::size_t maximum = 12;
+  order.resize(std::min(order.size(), maximum));
   FigurePanel panel;
   FigureSeries first{.name = "first order", .style = SeriesStyle::points};
   FigureSeries total{.name = "total", .style = SeriesStyle::points};

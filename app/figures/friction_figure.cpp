@@ -9,13 +9,13 @@
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t most_windows = 600;
+constexpr std::size_t max_windows = 600;
 constexpr int curve_points = 60;
 
 FigureSeries windows_of(const identification::FrictionCurveFit& fit, bool forward) {
   FigureSeries series =
       make_series(forward ? "windows, forward" : "windows, backward", SeriesStyle::points);
-  const std::size_t step = 1 + fit.points.size() / most_windows;
+  const std::size_t step = 1 + fit.points.size() / max_windows;
   for (std::size_t i = 0; i < fit.points.size(); i += step) {
     const auto& point = fit.points[i];
     if ((point.rate > 0.0) != forward || point.rate == 0.0) continue;
@@ -40,17 +40,17 @@ std::vector<Figure> friction_figure(const io::CampaignSection& section) {
   lowest = std::clamp(lowest, 1e-4 * highest, 0.5 * highest);
 
   FigurePanel panel = make_panel(make_axis("friction torque", "N.m"));
-  FigureSeries reconciled = make_series("combined, 95 % band", SeriesStyle::line);
+  FigureSeries combined = make_series("combined, 95 % band", SeriesStyle::line);
   const bool recommended = io::recommended(section).has_value();
   FigureSeries fitted = make_series("curve through the windows", SeriesStyle::dashed);
   for (int i = 0; i < curve_points; ++i) {
     const double rate = lowest * std::pow(highest / lowest, i / (curve_points - 1.0));
     if (recommended) {
       const auto band = identification::friction_interval(*section.grey_box, rate);
-      reconciled.x.push_back(rate);
-      reconciled.y.push_back(band.value);
-      reconciled.y_lower.push_back(band.lower);
-      reconciled.y_upper.push_back(band.upper);
+      combined.x.push_back(rate);
+      combined.y.push_back(band.value);
+      combined.y_lower.push_back(band.lower);
+      combined.y_upper.push_back(band.upper);
     }
     if (fit != nullptr) {
       fitted.x.push_back(rate);
@@ -71,7 +71,7 @@ std::vector<Figure> friction_figure(const io::CampaignSection& section) {
   if (fit != nullptr) {
     for (const bool forward : {true, false}) panel.series.push_back(windows_of(*fit, forward));
   }
-  for (auto* series : {&fitted, &reconciled, &tested}) panel.series.push_back(std::move(*series));
+  for (auto* series : {&fitted, &combined, &tested}) panel.series.push_back(std::move(*series));
   std::erase_if(panel.series, [](const FigureSeries& series) { return series.x.empty(); });
   if (panel.series.empty()) return {};
   Figure figure =

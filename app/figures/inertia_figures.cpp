@@ -25,7 +25,7 @@ struct Row {
   Interval inertia;  // kg m2
   Interval ratio;    // all motors over everything else
   double printed_inertia = none, printed_ratio = none;
-  bool reconciled = false;
+  bool combined = false;
 };
 
 Interval interval_of(const numerics::PropagatedResult& result) {
@@ -54,10 +54,10 @@ Scale scale_of(const std::vector<Shown>& all) {
   }
   const double middle = values.empty() ? 1.0 : numerics::median(std::move(values));
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
-  const auto add = [&](double value, double most) {
+  const auto add = [&](double value, double maximum) {
     if (!std::isfinite(value)) return;
-    low = std::min(low, std::clamp(value, 0.0, most));
-    high = std::max(high, std::min(value, most));
+    low = std::min(low, std::clamp(value, 0.0, maximum));
+    high = std::max(high, std::min(value, maximum));
   };
   const double farthest = 4.0 * middle;
   for (const auto& [interval, printed] : all) {
@@ -83,7 +83,7 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
   std::vector<Shown> all;
   for (const auto& row : rows) all.push_back(shown(row));
   const Scale scale = scale_of(all);
-  FigureSeries reconciled = make_series("combined, 95 % interval", SeriesStyle::points);
+  FigureSeries combined = make_series("combined, 95 % interval", SeriesStyle::points);
   FigureSeries methods = make_series("method, 95 % interval", SeriesStyle::points);
   FigureSeries printed = make_series("as stated", SeriesStyle::points);
   FigurePanel panel;
@@ -91,7 +91,7 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
     panel.y.categories.push_back(rows[i].method);
     const auto& [interval, value] = all[i];
     const auto place = static_cast<double>(i);
-    FigureSeries& series = rows[i].reconciled ? reconciled : methods;
+    FigureSeries& series = rows[i].combined ? combined : methods;
     if (interval.value > scale.highest && std::isfinite(interval.value)) {
       panel.marks.push_back(
           {scale.highest, place, fmt::format("{:.3g}, off scale", interval.value)});
@@ -108,7 +108,7 @@ Figure forest(const std::vector<Row>& rows, const FigureAxis& axis,
       printed.y.push_back(place);
     }
   }
-  for (auto* series : {&reconciled, &methods, &printed}) {
+  for (auto* series : {&combined, &methods, &printed}) {
     if (!series->x.empty()) panel.series.push_back(std::move(*series));
   }
   Figure figure;
@@ -181,9 +181,9 @@ std::vector<Figure> inertia_figures(const io::CampaignSection& section) {
 
 std::vector<Figure> inertia_figures(const IdentificationSection& section) {
   std::vector<Row> rows;
-  const bool contradictory = section.reconciled && section.reconciled->contradictory();
-  if (section.reconciled && !contradictory) {
-    const auto& one = *section.reconciled;
+  const bool contradictory = section.combined && section.combined->contradictory();
+  if (section.combined && !contradictory) {
+    const auto& one = *section.combined;
     rows.push_back({"combined",
                     {one.value, one.standard_uncertainty, one.lower, one.upper},
                     {one.motor_to_load_ratio, 0.0, one.ratio_lower, one.ratio_upper},

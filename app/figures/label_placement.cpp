@@ -7,7 +7,7 @@ namespace boresight::app {
 namespace {
 
 constexpr double cell_size = 3.0;
-constexpr double most = 4000.0;  // pixels of a segment that are looked at
+constexpr double maximum = 4000.0;  // pixels of a segment that are looked at
 
 bool overlap(const Box& a, const Box& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
@@ -32,7 +32,7 @@ std::uint8_t* LabelPlacement::cell(double x, double y) {
 void LabelPlacement::avoid_segment(double x0, double y0, double x1, double y1) {
   const double length = std::hypot(x1 - x0, y1 - y0);
   if (!std::isfinite(length)) return;
-  const int steps = static_cast<int>(std::ceil(std::min(length, most) / (0.7 * cell_size)));
+  const int steps = static_cast<int>(std::ceil(std::min(length, maximum) / (0.7 * cell_size)));
   for (int i = 0; i <= steps; ++i) {
     const double along = steps == 0 ? 0.0 : static_cast<double>(i) / steps;
     if (auto* const here = cell(x0 + along * (x1 - x0), y0 + along * (y1 - y0))) *here = 1;
@@ -59,7 +59,7 @@ double LabelPlacement::ink(const Box& box) const {
 
 std::optional<std::size_t> LabelPlacement::place(const std::vector<LabelPlace>& places) {
   std::optional<std::size_t> best;
-  double least = 0.0;
+  double minimum = 0.0;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Box& box = places[i].box;
     if (box.left < within_.left || box.right > within_.right || box.top < within_.top ||
@@ -70,9 +70,9 @@ std::optional<std::size_t> LabelPlacement::place(const std::vector<LabelPlace>& 
                                    [&](const Box& other) { return overlap(box, other); });
     if (!free) continue;
     const double cost = places[i].penalty + 0.5 * ink(box);
-    if (!best || cost < least) {
+    if (!best || cost < minimum) {
       best = i;
-      least = cost;
+      minimum = cost;
     }
   }
   if (best) taken_.push_back(places[*best].box);

@@ -83,7 +83,7 @@ Figure rms_figure(const MatchSection& section) {
     FigureSeries curve{.name = series.name};
     for (std::size_t i = 0; i < section.points.size(); ++i) {
       curve.x.push_back(section.points[i].disks);
-      curve.y.push_back(series.values[i].found ? series.values[i].beam_rms / millidegree
+      curve.y.push_back(series.values[i].found ? series.values[i].boresight_rms / millidegree
                                                : undefined);
     }
     for (const auto& kink : series.smoothness.kinks) {
@@ -194,12 +194,13 @@ Figure friction_figure(const MatchSection& section) {
       if (!run) continue;
       if (run->reversal && run->reversal->status == design::RunStatus::complete) {
         reversal.x.push_back(section.points[i].disks);
-        reversal.y.push_back(run->reversal->beam_error / millidegree);
+        reversal.y.push_back(run->reversal->boresight_error / millidegree);
       }
-      if (!run->hunting.empty() && run->hunting.front().status == design::RunStatus::complete) {
-        const auto& rest = run->hunting.front();
+      if (!run->limit_cycles.empty() &&
+          run->limit_cycles.front().status == design::RunStatus::complete) {
+        const auto& rest = run->limit_cycles.front();
         cycle.x.push_back(section.points[i].disks);
-        cycle.y.push_back(rest.limit_cycle ? rest.beam_amplitude / millidegree : 0.0);
+        cycle.y.push_back(rest.limit_cycle ? rest.boresight_amplitude / millidegree : 0.0);
       }
     }
     if (!reversal.x.empty()) figure.panels[0].series.push_back(std::move(reversal));

@@ -10,8 +10,8 @@
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t classes = 40;    // of the histogram
-constexpr double shown_share = 0.995;  // of the plants, that the histogram reaches to
+constexpr std::size_t classes = 40;       // of the histogram
+constexpr double shown_fraction = 0.995;  // of the plants, that the histogram reaches to
 constexpr std::size_t curve_points = 400;
 
 // Beam rms of the stable plants, mdeg, rising.
@@ -21,7 +21,7 @@ std::vector<double> sorted_rms(const MonteCarloOutcome& outcome) {
   for (std::size_t block = 0; block < run.blocks(); ++block) {
     if (!run.whole(block)) continue;
     for (const auto& one : run.outcomes(block)) {
-      if (std::isfinite(one.beam_rms)) values.push_back(one.beam_rms / millidegree);
+      if (std::isfinite(one.boresight_rms)) values.push_back(one.boresight_rms / millidegree);
     }
   }
   std::ranges::sort(values);
@@ -46,12 +46,13 @@ FigureSeries histogram(const std::vector<double>& values, double from, double to
 }
 
 Figure distribution(const MonteCarloSection& section, const std::vector<double>& values) {
-  const double least = values.front();
-  const auto reached = static_cast<std::size_t>(shown_share * static_cast<double>(values.size()));
+  const double minimum = values.front();
+  const auto reached =
+      static_cast<std::size_t>(shown_fraction * static_cast<double>(values.size()));
   const double largest = values[std::min(reached, values.size() - 1)];
-  const double from = least, to = largest > least ? largest : least * 1.01 + 1e-9;
-  FigurePanel shares = make_panel(make_axis("fraction of the stable plants", "%"));
-  shares.series.push_back(histogram(values, from, to));
+  const double from = minimum, to = largest > minimum ? largest : minimum * 1.01 + 1e-9;
+  FigurePanel fractions = make_panel(make_axis("fraction of the stable plants", "%"));
+  fractions.series.push_back(histogram(values, from, to));
   FigurePanel cumulative = make_panel(make_axis("fraction of all plants at or below", "%"));
   FigureSeries curve = make_series("plants", SeriesStyle::line);
   const auto all = static_cast<double>(section.plants);
@@ -65,7 +66,7 @@ Figure distribution(const MonteCarloSection& section, const std::vector<double>&
   for (const auto& [budget, met] : section.budgets) {
     const double at = budget.rms / millidegree;
     const std::string name = fmt::format("{} ({})", budget.name, budget.band);
-    shares.lines.push_back(vertical_line(at, name));
+    fractions.lines.push_back(vertical_line(at, name));
     cumulative.lines.push_back(vertical_line(at, fmt::format("{:.1f} %", 100.0 * met.value)));
   }
   Figure figure = make_figure(
@@ -75,10 +76,10 @@ Figure distribution(const MonteCarloSection& section, const std::vector<double>&
                   "rest meets no budget. Shown up to the {:g} % quantile; largest rms {:.4g} mdeg. "
                   "Lines: budgets, with the fraction that meets each below.",
                   section.structure, section.wind_speed, plant::to_string(section.wind_model),
-                  section.plants, section.distribution, section.stable, 100.0 * shown_share,
+                  section.plants, section.distribution, section.stable, 100.0 * shown_fraction,
                   values.back()),
       make_axis("boresight rms per axis", "mdeg"));
-  figure.panels = {std::move(shares), std::move(cumulative)};
+  figure.panels = {std::move(fractions), std::move(cumulative)};
   return figure;
 }
 
@@ -86,7 +87,7 @@ Figure worst_plants(const MonteCarloSection& section) {
   FigurePanel panel;
   FigureSeries bars = make_series("boresight rms", SeriesStyle::bars);
   for (const auto& plant : section.worst) {
-    bars.x.push_back(plant.outcome.beam_rms / millidegree);
+    bars.x.push_back(plant.outcome.boresight_rms / millidegree);
     bars.y.push_back(static_cast<double>(panel.y.categories.size()));
     std::string inputs;
     for (const auto input : section.inputs) {

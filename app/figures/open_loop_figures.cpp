@@ -19,7 +19,7 @@ namespace {
 constexpr std::array short_names{"rate", "valve", "position"};  // of control::loop_breaks
 
 // Each allowed Ms once, with its label.
-std::vector<std::pair<double, std::string>> allowed_peaks(const DrawnLaw& drawn) {
+std::vector<std::pair<double, std::string>> allowed_peaks(const DrawnController& drawn) {
   const auto& goals = drawn.goals.sensitivity_peak;
   const bool one = std::ranges::all_of(goals, [&](double goal) { return goal == goals.front(); });
   std::vector<std::pair<double, std::string>> allowed;
@@ -100,13 +100,13 @@ FigureSeries nichols_curve(std::string name, const Eigen::ArrayXcd& values) {
 
 }  // namespace
 
-Figure open_loop_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
-  Figure figure = law_figure(drawn, "open-loop", "Open loop at three breaks");
+Figure open_loop_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
+  Figure figure = controller_figure(drawn, "open-loop", "Open loop at three breaks");
   figure.caption =
       "Loop gain broken in the rate loop (position loop open), at the valve command and in the "
       "position loop. Circles: gain crossovers, and at each break the smallest gain margin (GM), "
       "the smallest phase margin (PM) and the frequency of the maximum sensitivity (Ms). " +
-      law_conditions(drawn);
+      controller_conditions(drawn);
   std::vector<NamedResponse> loops;
   for (std::size_t b = 0; b < on_grid.gain.size(); ++b) {
     loops.push_back({break_name(b), on_grid.gain.at(b)});
@@ -127,8 +127,8 @@ Figure open_loop_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
   return figure;
 }
 
-Figure nyquist_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
-  Figure figure = law_figure(drawn, "nyquist", "Nyquist plot with exclusion disks");
+Figure nyquist_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
+  Figure figure = controller_figure(drawn, "nyquist", "Nyquist plot with exclusion disks");
   const auto worst =
       std::min_element(drawn.margins.begin(), drawn.margins.end(),
                        [](const auto& x, const auto& y) { return x.disk.alpha < y.disk.alpha; });
@@ -140,7 +140,7 @@ Figure nyquist_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
       "{:.2f} to {:.2f}, phase {:.0f}\u00b0), touches its curve. ",
       disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain, disk.highest_gain,
       disk.phase_deg);
-  figure.caption += law_conditions(drawn);
+  figure.caption += controller_conditions(drawn);
   figure.equal_scales = true;
   figure.x = {.label = "real part", .lowest = -3.5, .highest = 1.5};
   FigurePanel panel;
@@ -162,13 +162,13 @@ Figure nyquist_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
   return figure;
 }
 
-Figure nichols_figure(const DrawnLaw& drawn, const LawResponses& on_grid) {
-  Figure figure = law_figure(drawn, "nichols", "Nichols chart with exclusion regions");
+Figure nichols_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
+  Figure figure = controller_figure(drawn, "nichols", "Nichols chart with exclusion regions");
   figure.caption =
       "Loop gain at the three breaks, magnitude against phase, phases within \u2212360\u00b0 to "
       "0\u00b0. No curve may enter the region about \u2212180\u00b0 and 0 dB in which |1/(1 + L)| "
       "exceeds the allowed Ms. " +
-      law_conditions(drawn);
+      controller_conditions(drawn);
   figure.x = {.label = "phase", .unit = "deg", .lowest = -360.0, .highest = 0.0};
   FigurePanel panel;
   panel.y = {.label = "loop gain", .unit = "dB", .lowest = -30.0, .highest = 40.0};

@@ -220,18 +220,18 @@ std::string panel_svg(const FigureAxis& x, const FigurePanel& panel, const Place
   }
   svg += circles_svg(panel, placed, labels);
   const bool along_x = bars_along_x(panel);
-  BarShare share{0, 0, along_x || !x.categories.empty()};
+  BarFraction fraction{0, 0, along_x || !x.categories.empty()};
   for (const auto& series : panel.series)
-    share.count += stands_side_by_side(series, along_x) ? 1 : 0;
-  share.count = std::max<std::size_t>(share.count, 1);
+    fraction.count += stands_side_by_side(series, along_x) ? 1 : 0;
+  fraction.count = std::max<std::size_t>(fraction.count, 1);
   const auto group = [&](const FigureSeries& series) {
     const std::size_t look = looks.at(series.name);
     return fmt::format(R"(<g class="series series-{}">)", look);
   };
   for (const auto& series : panel.series) {
     const std::string curve =
-        curve_svg(series, looks.at(series.name), placed.x, placed.y, along_x, share, labels);
-    if (stands_side_by_side(series, along_x)) ++share.index;
+        curve_svg(series, looks.at(series.name), placed.x, placed.y, along_x, fraction, labels);
+    if (stands_side_by_side(series, along_x)) ++fraction.index;
     if (!curve.empty()) svg += group(series) + curve + "</g>";
   }
   svg += lines_svg(panel, placed, labels);

@@ -83,7 +83,7 @@ Figure valve_figure(const PlantSection& section, const plant::PlantResponse& res
   figure.panels = bode_panels(response.frequency,
                               {{"motor (tachometer)", response.tachometer_command},
                                {"encoder", derivative * response.encoder_command},
-                               {"boresight", derivative * response.beam_command}},
+                               {"boresight", derivative * response.boresight_command}},
                               "rate per commanded rate");
   const double peak = section.hydraulic.frequency;
   figure.panels[0].lines.push_back({FigureLine::Direction::vertical, peak, "hydraulic mode"});
@@ -114,9 +114,9 @@ Figure wind_figure(const PlantSection& section, const plant::PlantResponse& resp
                             .x = in_hertz(response.frequency),
                             .y = numbers(scale * values.abs())});
   };
-  add("boresight", SeriesStyle::line, response.beam_wind);
+  add("boresight", SeriesStyle::line, response.boresight_wind);
   add("encoder", SeriesStyle::line, response.encoder_wind);
-  add("boresight, bull gear locked", SeriesStyle::dashed, bending.beam_per_wind);
+  add("boresight, bull gear locked", SeriesStyle::dashed, bending.boresight_per_wind);
   figure.panels.push_back(std::move(panel));
   return figure;
 }

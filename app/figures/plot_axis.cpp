@@ -81,16 +81,16 @@ PlotAxis range(const FigureAxis& axis, Extent extent, double padding) {
 
 double bar_width(const FigureSeries& series, bool categories) {
   if (categories) return 0.74;
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   std::vector<double> places;
   for (const double x : series.x) {
     if (std::isfinite(x)) places.push_back(x);
   }
   std::sort(places.begin(), places.end());
   for (std::size_t i = 1; i < places.size(); ++i) {
-    if (places[i] > places[i - 1]) least = std::min(least, places[i] - places[i - 1]);
+    if (places[i] > places[i - 1]) minimum = std::min(minimum, places[i] - places[i - 1]);
   }
-  return std::isfinite(least) ? 0.94 * least : 0.8;
+  return std::isfinite(minimum) ? 0.94 * minimum : 0.8;
 }
 
 PlotAxis x_range(const Figure& figure) {

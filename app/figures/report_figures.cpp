@@ -41,10 +41,10 @@ std::vector<Figure> report_figures(const Report& report) {
   if (report.tuned) add(tune_figures(*report.tuned, report.time_domain));
   if (report.time_domain) {
     add(time_domain_figures(*report.time_domain, "In the time domain, on the nonlinear antenna: " +
-                                                     report.time_domain->law));
+                                                     report.time_domain->controller));
   }
   if (report.limit) add(limit_figures(*report.limit));
-  if (!report.choices.empty()) add(choices_figures(report.choices));
+  if (!report.interpretations.empty()) add(interpretations_figures(report.interpretations));
   if (report.matching) add(matching_figures(*report.matching));
   if (report.matched) add(match_figures(*report.matched));
   if (report.evaluated) add(evaluate_figures(*report.evaluated));

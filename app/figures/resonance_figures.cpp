@@ -58,9 +58,9 @@ Figure ring_times(const io::SloshTest& test, double sample_time) {
       "Port pressures after the strongest event, with the damped cosine fitted to each; slow part "
       "and cross-talk of other lines removed.";
   figure.x = make_axis("time from the start of the window", "s");
-  constexpr std::size_t most_panels = 4;
+  constexpr std::size_t max_panels = 4;
   for (const auto& plot : test.result.plots) {
-    if (plot.side != LineSide::inlet || figure.panels.size() == most_panels) continue;
+    if (plot.side != LineSide::inlet || figure.panels.size() == max_panels) continue;
     const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
         plot.pressure.size(), 0.0, sample_time * static_cast<double>(plot.pressure.size() - 1));
     figure.panels.push_back(

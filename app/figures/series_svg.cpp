@@ -19,7 +19,7 @@ using Run = std::vector<Point>;
 // Far outside a drawing viewers lose precision: an edge this far off is as good as infinity.
 constexpr double far = 3000.0;
 
-double within_reach(const PlotAxis& axis, double place) {
+double achievable_limits(const PlotAxis& axis, double place) {
   return std::clamp(place, std::min(axis.start, axis.end) - far,
                     std::max(axis.start, axis.end) + far);
 }
@@ -34,7 +34,7 @@ std::vector<Run> runs_of(const FigureSeries& series, const std::vector<double>& 
       continue;
     }
     Run& run = runs.back();
-    const Point reached{within_reach(x, point.x), within_reach(y, point.y)};
+    const Point reached{achievable_limits(x, point.x), achievable_limits(y, point.y)};
     if (series.style == SeriesStyle::steps && !run.empty()) {
       run.push_back({reached.x, run.back().y});
     }
@@ -121,8 +121,8 @@ std::string band_svg(const FigureSeries& series, const SeriesLook& look, const P
       close();
       continue;
     }
-    upper.push_back({within_reach(x, place), within_reach(y, high)});
-    lower.push_back({within_reach(x, place), within_reach(y, low)});
+    upper.push_back({achievable_limits(x, place), achievable_limits(y, high)});
+    lower.push_back({achievable_limits(x, place), achievable_limits(y, low)});
   }
   close();
   if (path.empty()) return {};
@@ -163,7 +163,7 @@ std::string bar_svg(const Box& box, const SeriesLook& look) {
 }
 
 std::string bars_svg(const FigureSeries& series, const SeriesLook& look, const PlotAxis& x,
-                     const PlotAxis& y, bool along_x, const BarShare& share,
+                     const PlotAxis& y, bool along_x, const BarFraction& fraction,
                      LabelPlacement& labels) {
   const PlotAxis& value_axis = along_x ? x : y;
   const PlotAxis& stand_axis = along_x ? y : x;
@@ -172,19 +172,20 @@ std::string bars_svg(const FigureSeries& series, const SeriesLook& look, const P
   const auto& lower = along_x ? series.x_lower : series.y_lower;
   const auto& upper = along_x ? series.x_upper : series.y_upper;
   const bool spans = !lower.empty() && !upper.empty();
-  const double width = bar_width(series, share.categories);
-  const double each = spans ? width : width / static_cast<double>(share.count);
+  const double width = bar_width(series, fraction.categories);
+  const double each = spans ? width : width / static_cast<double>(fraction.count);
   const double offset =
-      spans ? -0.5 * width : -0.5 * width + static_cast<double>(share.index) * each;
+      spans ? -0.5 * width : -0.5 * width + static_cast<double>(fraction.index) * each;
   std::string svg;
   for (std::size_t i = 0; i < series.x.size(); ++i) {
     double from = value_axis.at(spans ? lower[i] : 0.0);
     const double to = value_axis.at(spans ? upper[i] : values[i]);
     if (!std::isfinite(from)) from = value_axis.start;  // zero of a logarithmic axis
     const double side = stand_axis.at(stands[i] + offset);
-    const double other = stand_axis.at(stands[i] + offset + (share.count > 1 ? 0.94 : 1.0) * each);
+    const double other =
+        stand_axis.at(stands[i] + offset + (fraction.count > 1 ? 0.94 : 1.0) * each);
     if (!std::isfinite(to) || !std::isfinite(side) || !std::isfinite(other)) continue;
-    const double a = within_reach(value_axis, from), b = within_reach(value_axis, to);
+    const double a = achievable_limits(value_axis, from), b = achievable_limits(value_axis, to);
     const Box box =
         along_x ? Box{std::min(a, b), std::min(side, other), std::max(a, b), std::max(side, other)}
                 : Box{std::min(side, other), std::min(a, b), std::max(side, other), std::max(a, b)};
@@ -217,8 +218,8 @@ std::string whisker(const PlotAxis& axis, double low_value, double high_value, d
   if (!std::isfinite(low) && std::isfinite(low_value)) low = axis.start;
   const double high = axis.at(high_value);
   if (!std::isfinite(low) || !std::isfinite(high)) return {};
-  const double least = std::min(axis.start, axis.end), most = std::max(axis.start, axis.end);
-  const double a = std::clamp(low, least, most), b = std::clamp(high, least, most);
+  const double minimum = std::min(axis.start, axis.end), maximum = std::max(axis.start, axis.end);
+  const double a = std::clamp(low, minimum, maximum), b = std::clamp(high, minimum, maximum);
   std::string path = along_x ? fmt::format("M{:.2f} {:.2f}H{:.2f}", a, across, b)
                              : fmt::format("M{:.2f} {:.2f}V{:.2f}", across, a, b);
   if (along_x) {
@@ -281,11 +282,11 @@ std::string marker_path(int shape, double x, double y, double size) {
 }
 
 std::string curve_svg(const FigureSeries& series, std::size_t index, const PlotAxis& x,
-                      const PlotAxis& y, bool along_x, const BarShare& share,
+                      const PlotAxis& y, bool along_x, const BarFraction& fraction,
                       LabelPlacement& labels) {
   const SeriesLook look = series_look(index);
   if (series.style == SeriesStyle::bars) {
-    return bars_svg(series, look, x, y, along_x, share, labels);
+    return bars_svg(series, look, x, y, along_x, fraction, labels);
   }
   if (series.style == SeriesStyle::points) return {};
   std::string svg;

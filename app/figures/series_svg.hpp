@@ -9,14 +9,14 @@
 namespace boresight::app {
 
 /// Position of a series of bars among those of the panel.
-struct BarShare {
+struct BarFraction {
   std::size_t index = 0, count = 1;
   bool categories = false;  // they stand at names, not at numbers
 };
 
 /// What is cut off at the panel's edge: bands, curves and bars of a series.
 std::string curve_svg(const FigureSeries& series, std::size_t look, const PlotAxis& x,
-                      const PlotAxis& y, bool along_x, const BarShare& share,
+                      const PlotAxis& y, bool along_x, const BarFraction& fraction,
                       LabelPlacement& labels);
 
 /// Elements drawn completely or not at all: markers and interval bars.

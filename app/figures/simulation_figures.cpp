@@ -108,15 +108,15 @@ Figure position_test_figure(const PositionTestSection& record) {
                   fmt::format("Simulated {}", record.test), "", make_axis("time", "s"));
   if (record.channels.empty()) return figure;
   figure.caption = caption_of(record.description, record);
-  if (record.beam_rms) {
-    figure.caption +=
-        fmt::format(" Boresight rms about its mean {:.3f} mdeg", *record.beam_rms / millidegree);
+  if (record.boresight_rms) {
+    figure.caption += fmt::format(" Boresight rms about its mean {:.3f} mdeg",
+                                  *record.boresight_rms / millidegree);
     figure.caption += record.predicted_rms ? fmt::format(", linear prediction {:.3f} mdeg.",
                                                          *record.predicted_rms / millidegree)
                                            : ".";
   }
   FigurePanel error = make_panel(make_axis("error at the sky", "mdeg"));
-  draw(record, "beam_error", "boresight", SeriesStyle::line, error);
+  draw(record, "boresight_error", "boresight", SeriesStyle::line, error);
   draw(record, "encoder_error", "encoder", SeriesStyle::dashed, error);
   if (slew) {
     for (const double limit : {-1.0, 1.0}) {

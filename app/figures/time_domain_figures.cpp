@@ -54,18 +54,18 @@ Figure contributions(const TimeDomainSection& section, const std::string& headin
   const auto& wind = section.result.wind;
   Waterfall bars;
   bars.total("linear prediction", wind.predicted_rms);
-  bars.contribution("realisation error", wind.chance);
+  bars.contribution("realisation error", wind.realisation_error);
   bars.contribution("sampling", wind.sampling);
   for (const auto& influence : wind.influences) {
     bars.contribution(std::string(design::to_string(influence.influence)), influence.difference);
   }
-  bars.contribution("interactions, lines, offset", wind.joint);
-  bars.total("simulated", wind.beam_rms);
+  bars.contribution("interactions, lines, offset", wind.interaction);
+  bars.total("simulated", wind.boresight_rms);
   Figure figure = make_figure(
       "time-domain-contributions", heading, "From the linear prediction to the nonlinear antenna",
       fmt::format("Boresight rms per axis, {}: {:g} s of wind of {:.3g} m/s, controller sampled "
                   "every {:g} s. Contribution: rms with all effects minus rms without this one.",
-                  section.law, section.options.wind_duration, section.wind_speed,
+                  section.controller, section.options.wind_duration, section.wind_speed,
                   section.sample_time),
       make_axis("boresight rms", "mdeg"));
   figure.panels.push_back(std::move(bars).panel());
@@ -78,7 +78,7 @@ Figure candidates(const TimeDomainSection& section, const std::string& heading) 
   FigureSeries simulated = make_series("simulated, nonlinear antenna", SeriesStyle::bars);
   for (const auto& candidate : section.candidates) {
     const auto place = static_cast<double>(panel.y.categories.size());
-    panel.y.categories.push_back(candidate.law);
+    panel.y.categories.push_back(candidate.controller);
     linear.x.push_back(candidate.result.wind.predicted_rms / millidegree);
     simulated.x.push_back(candidate.simulated_rms() / millidegree);
     linear.y.push_back(place);
@@ -86,7 +86,7 @@ Figure candidates(const TimeDomainSection& section, const std::string& heading) 
   }
   panel.series = {std::move(linear), std::move(simulated)};
   Figure figure = make_figure(
-      "time-domain-laws", heading, "Tuned controllers on the nonlinear antenna",
+      "time-domain-controllers", heading, "Tuned controllers on the nonlinear antenna",
       fmt::format("Boresight rms in wind of {:.3g} m/s, over the same simulated records for "
                   "all, limit cycle not included.",
                   section.wind_speed),

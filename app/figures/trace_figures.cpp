@@ -69,8 +69,8 @@ Figure wind_figure(const TimeDomainSection& section, const std::string& heading)
                      SeriesStyle::dashed, before, before.boresight, count(before)));
   }
   whole.series.push_back(
-      error_series(section.law, SeriesStyle::line, trace, trace.boresight, count(trace)));
-  FigurePanel parts = error_panel("parts of the error, " + section.law);
+      error_series(section.controller, SeriesStyle::line, trace, trace.boresight, count(trace)));
+  FigurePanel parts = error_panel("parts of the error, " + section.controller);
   parts.series.push_back(
       error_series("encoder error", SeriesStyle::line, trace, trace.encoder, count(trace)));
   const Eigen::VectorXd beyond = trace.boresight - trace.encoder;
@@ -89,7 +89,7 @@ Figure wind_figure(const TimeDomainSection& section, const std::string& heading)
   return figure;
 }
 
-std::string seen(const design::HuntingResult& run) {
+std::string seen(const design::LimitCycleResult& run) {
   const std::string rate = run.rate == 0.0
                                ? std::string("At rest")
                                : fmt::format("At {:.3g} mdeg/s", run.rate / millidegree);
@@ -97,7 +97,7 @@ std::string seen(const design::HuntingResult& run) {
   const std::string frequency =
       run.frequency ? fmt::format(" at {:.3g} Hz", *run.frequency) : std::string();
   return fmt::format("{}: limit cycle of {:.3f} mdeg amplitude in boresight{}.", rate,
-                     run.beam_amplitude / millidegree, frequency);
+                     run.boresight_amplitude / millidegree, frequency);
 }
 
 std::vector<Figure> limit_cycle_figure(const TimeDomainSection& section,
@@ -107,9 +107,9 @@ std::vector<Figure> limit_cycle_figure(const TimeDomainSection& section,
       fmt::format("Nonlinear antenna, {}, without wind and sensor noise: the end of the run of the "
                   "largest limit cycle, or of the largest error where there is none; a straight "
                   "line is removed.",
-                  section.law),
+                  section.controller),
       make_axis("time", "s"));
-  for (const auto& run : section.result.hunting) {
+  for (const auto& run : section.result.limit_cycles) {
     if (run.status != design::RunStatus::complete || run.trace.boresight.size() == 0) continue;
     FigurePanel panel = error_panel(run.rate == 0.0 ? "error at rest" : "error when tracking");
     panel.series.push_back(
@@ -131,9 +131,9 @@ std::vector<Figure> reversal_figure(const TimeDomainSection& section, const std:
       fmt::format("Nonlinear antenna, {}, without wind and sensor noise; the rate changes between "
                   "+{:.3g} and \u2212{:.3g} mdeg/s at the vertical lines. Peak error {:.3f} mdeg "
                   "at the encoder, {:.3f} mdeg in boresight about its mean.",
-                  section.law, section.options.tracking_rate / millidegree,
+                  section.controller, section.options.tracking_rate / millidegree,
                   section.options.tracking_rate / millidegree,
-                  reversal->encoder_error / millidegree, reversal->beam_error / millidegree),
+                  reversal->encoder_error / millidegree, reversal->boresight_error / millidegree),
       make_axis("time", "s"));
   FigurePanel boresight = error_panel("boresight error");
   FigurePanel encoder = error_panel("encoder error");

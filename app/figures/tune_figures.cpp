@@ -7,18 +7,18 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/figures/block_diagram.hpp>
+#include <boresight/app/figures/controller_figures.hpp>
 #include <boresight/app/figures/error_budget_figures.hpp>
-#include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tune_figures.hpp>
 #include <boresight/app/report/sky_units.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/tune/controllers_in_time.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t most_compared = 6;  // laws in one panel
-constexpr std::size_t valve = 1;          // of control::loop_breaks
+constexpr std::size_t max_compared = 6;  // laws in one panel
+constexpr std::size_t valve = 1;         // of control::loop_breaks
 
 std::string title_of(const TuneSection& section) {
   return fmt::format("Tuned loops: {}, wind model {}", fmt::join(section.structures, ", "),
@@ -27,9 +27,9 @@ std::string title_of(const TuneSection& section) {
 
 std::vector<std::string> all_structures(const TuneSection& section) {
   std::vector<std::string> names;
-  for (const auto& law : section.laws) {
-    if (std::find(names.begin(), names.end(), law.structure) == names.end()) {
-      names.push_back(law.structure);
+  for (const auto& controller : section.controllers) {
+    if (std::find(names.begin(), names.end(), controller.structure) == names.end()) {
+      names.push_back(controller.structure);
     }
   }
   return names;
@@ -47,12 +47,12 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
       wind_speed, plant::to_string(section.wind_model), section.ensemble_size,
       to_string(section.ensemble_source),
       in_time ? "; last: simulated on the nonlinear antenna, limit cycle not included" : "");
-  for (const auto& law : section.laws) {
-    if (law.wind_speed != wind_speed || law.stable()) continue;
+  for (const auto& controller : section.controllers) {
+    if (controller.wind_speed != wind_speed || controller.stable()) continue;
     figure.caption += fmt::format(
-        " {} ({}) has no bar: {}.", law.structure, to_string(law.tuned_for),
-        law.tuned_for == TunedFor::present ? "the present gains are unstable on this plant"
-                                           : "no stable controller was found");
+        " {} ({}) has no bar: {}.", controller.structure, to_string(controller.tuned_for),
+        controller.tuned_for == TunedFor::present ? "the present gains are unstable on this plant"
+                                                  : "no stable controller was found");
   }
   figure.x = {.label = "loop structure", .categories = all_structures(section)};
   const auto place_of = [&](const std::string& structure) {
@@ -63,26 +63,30 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   panel.y = {.label = "boresight rms", .unit = "mdeg"};
   for (const auto purpose : {TunedFor::present, TunedFor::nominal, TunedFor::robust}) {
     FigureSeries bars{.name = std::string(to_string(purpose)), .style = SeriesStyle::bars};
-    for (const auto& law : section.laws) {
-      if (law.tuned_for != purpose || law.wind_speed != wind_speed || !law.stable()) continue;
-      bars.x.push_back(place_of(law.structure));
-      bars.y.push_back(law.beam_rms / millidegree);
+    for (const auto& controller : section.controllers) {
+      if (controller.tuned_for != purpose || controller.wind_speed != wind_speed ||
+          !controller.stable())
+        continue;
+      bars.x.push_back(place_of(controller.structure));
+      bars.y.push_back(controller.boresight_rms / millidegree);
     }
     if (!bars.x.empty()) panel.series.push_back(std::move(bars));
   }
   if (in_time && in_time->wind_speed == wind_speed) {
     FigureSeries bars{.name = "nonlinear antenna", .style = SeriesStyle::bars};
     const auto add = [&](const design::SimulatedCandidate& candidate) {
-      for (const auto& law : section.laws) {
-        if (description_of(law) != candidate.law || law.wind_speed != wind_speed) continue;
-        bars.x.push_back(place_of(law.structure));
+      for (const auto& controller : section.controllers) {
+        if (description_of(controller) != candidate.controller ||
+            controller.wind_speed != wind_speed)
+          continue;
+        bars.x.push_back(place_of(controller.structure));
         bars.y.push_back(candidate.simulated_rms() / millidegree);
       }
     };
     std::ranges::for_each(in_time->candidates, add);
     if (in_time->candidates.empty()) add(in_time->own());
     bars.name = fmt::format("{} on the nonlinear antenna",
-                            in_time->law.substr(in_time->law.rfind(' ') + 1));
+                            in_time->controller.substr(in_time->controller.rfind(' ') + 1));
     if (!bars.x.empty()) panel.series.push_back(std::move(bars));
   }
   for (const auto& budget : section.budgets) {
@@ -101,19 +105,22 @@ Figure structures_figure(const TuneSection& section, double wind_speed,
   return figure;
 }
 
-std::vector<ComparedLaw> compared_laws(const TuneSection& section, const TunedLaw& first) {
-  const auto compared = [](const TunedLaw& law) {
-    return ComparedLaw{description_of(law), law.design.tuning.law,
-                       law.design.tuning.evaluation.noise_variance, law.effect()};
+std::vector<ComparedController> compared_controllers(const TuneSection& section,
+                                                     const TunedController& first) {
+  const auto compared = [](const TunedController& controller) {
+    return ComparedController{description_of(controller), controller.design.tuning.controller,
+                              controller.design.tuning.evaluation.noise_variance,
+                              controller.effect()};
   };
-  std::vector<ComparedLaw> laws{compared(first)};
-  for (const auto& law : section.laws) {
-    if (&law == &first || laws.size() == most_compared) continue;
-    const bool present = law.tuned_for == TunedFor::present && law.stable();
-    const bool alike = law.tuned_for == first.tuned_for && law.usable();
-    if (law.wind_speed == first.wind_speed && (present || alike)) laws.push_back(compared(law));
+  std::vector<ComparedController> controllers{compared(first)};
+  for (const auto& controller : section.controllers) {
+    if (&controller == &first || controllers.size() == max_compared) continue;
+    const bool present = controller.tuned_for == TunedFor::present && controller.stable();
+    const bool alike = controller.tuned_for == first.tuned_for && controller.usable();
+    if (controller.wind_speed == first.wind_speed && (present || alike))
+      controllers.push_back(compared(controller));
   }
-  return laws;
+  return controllers;
 }
 
 }  // namespace
@@ -121,38 +128,40 @@ std::vector<ComparedLaw> compared_laws(const TuneSection& section, const TunedLa
 std::vector<Figure> tune_figures(const TuneSection& section,
                                  const std::optional<TimeDomainSection>& in_time) {
   std::vector<Figure> figures;
-  const bool any = std::any_of(section.laws.begin(), section.laws.end(),
-                               [](const TunedLaw& law) { return law.stable(); });
+  const bool any =
+      std::any_of(section.controllers.begin(), section.controllers.end(),
+                  [](const TunedController& controller) { return controller.stable(); });
   if (!any || section.wind_speeds.empty()) return figures;
-  const TunedLaw* shown = shown_law(section, in_time ? &*in_time : nullptr);
+  const TunedController* shown = shown_controller(section, in_time ? &*in_time : nullptr);
   const double wind_speed = shown != nullptr ? shown->wind_speed : section.wind_speeds.front();
   figures.push_back(structures_figure(section, wind_speed, in_time));
   if (shown == nullptr) return figures;
   design::TrackingProblem problem = section.problem;
   problem.wind.mean_speed = wind_speed;
-  const auto laws = compared_laws(section, *shown);
-  figures.push_back(rms_against_wind("rms-against-wind", title_of(section), problem, laws,
+  const auto controllers = compared_controllers(section, *shown);
+  figures.push_back(rms_against_wind("rms-against-wind", title_of(section), problem, controllers,
                                      section.budgets, section.curves));
-  if (laws.size() > 1) {
+  if (controllers.size() > 1) {
     figures.push_back(compared_sensitivities("candidate-sensitivities", title_of(section), problem,
-                                             laws, control::loop_breaks.at(valve),
+                                             controllers, control::loop_breaks.at(valve),
                                              section.goals.sensitivity_peak.at(valve)));
   }
   figures.push_back(block_diagram("controller", title_of(section),
-                                  shown->design.tuning.law.structure, section.gains_of(*shown),
-                                  problem.delay));
-  auto of_law = law_figures({.id = "law",
-                             .section = title_of(section),
-                             .name = description_of(*shown),
-                             .problem = problem,
-                             .law = shown->design.tuning.law,
-                             .margins = shown->design.margins,
-                             .goals = section.goals,
-                             .noise_variance = shown->design.tuning.evaluation.noise_variance,
-                             .curves = section.curves});
-  std::move(of_law.begin(), of_law.end(), std::back_inserter(figures));
+                                  shown->design.tuning.controller.structure,
+                                  section.gains_of(*shown), problem.delay));
+  auto of_controller =
+      controller_figures({.id = "controller",
+                          .section = title_of(section),
+                          .name = description_of(*shown),
+                          .problem = problem,
+                          .controller = shown->design.tuning.controller,
+                          .margins = shown->design.margins,
+                          .goals = section.goals,
+                          .noise_variance = shown->design.tuning.evaluation.noise_variance,
+                          .curves = section.curves});
+  std::move(of_controller.begin(), of_controller.end(), std::back_inserter(figures));
   const bool simulated =
-      in_time && in_time->law == description_of(*shown) && in_time->wind_speed == wind_speed;
+      in_time && in_time->controller == description_of(*shown) && in_time->wind_speed == wind_speed;
   figures.push_back(error_budget_figure(
       "error-budget", title_of(section),
       fmt::format("{}, {:.3g} m/s{}.", description_of(*shown), wind_speed,
@@ -180,7 +189,7 @@ std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
     if (!design.nominal.stable()) return;
     const auto place = static_cast<double>(panel.y.categories.size());
     panel.y.categories.push_back(name);
-    nominal.x.push_back(design.nominal.beam_rms / millidegree);
+    nominal.x.push_back(design.nominal.boresight_rms / millidegree);
     nominal.y.push_back(place);
     worst.x.push_back(design.worst_rms / millidegree);
     worst.y.push_back(place);
@@ -190,12 +199,12 @@ std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
     add(fmt::format("LQG, S valve <= {:g}", limit.peak_limit), limit.margin_limited->design);
   }
   if (limit.robustified) add("LQG, robust over the plants", limit.robustified->design);
-  for (const auto& law : limit.laws) add(law.name, law.design);
+  for (const auto& controller : limit.controllers) add(controller.name, controller.design);
   panel.series = {std::move(nominal), std::move(worst)};
   panel.lines.push_back(
-      {FigureLine::Direction::vertical, limit.least_rms / millidegree, "lower bound"});
+      {FigureLine::Direction::vertical, limit.min_rms / millidegree, "lower bound"});
   panel.lines.push_back(
-      {FigureLine::Direction::vertical, limit.encoder_held_rms / millidegree, "encoder fixed"});
+      {FigureLine::Direction::vertical, limit.flexure_rms / millidegree, "encoder fixed"});
   figure.x.lowest = 0.0;
   figure.panels.push_back(std::move(panel));
   return {figure};

@@ -10,10 +10,10 @@
 
 namespace boresight::app {
 
-/// Structures side by side, their rms against wind speed, their sensitivities, and the law_figures
-/// of the best controller. The best one has the least rms at the design's wind speed among those
-/// that meet every requirement; robust controllers take precedence. `in_time`: controllers on the
-/// nonlinear antenna, if they were run.
+/// Structures side by side, their rms against wind speed, their sensitivities, and the
+/// controller_figures of the best controller. The best one has the least rms at the design's wind
+/// speed among those that meet every requirement; robust controllers take precedence. `in_time`:
+/// controllers on the nonlinear antenna, if they were run.
 std::vector<Figure> tune_figures(const TuneSection& section,
                                  const std::optional<TimeDomainSection>& in_time);
 

@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/figures/block_diagram.hpp>
+#include <boresight/app/figures/controller_figures.hpp>
 #include <boresight/app/figures/error_budget_figures.hpp>
-#include <boresight/app/figures/law_figures.hpp>
 #include <boresight/app/figures/tuning_figures.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/report/present_gains.hpp>
@@ -20,8 +20,9 @@ namespace {
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 double rms_of(const design::Design& design) {
-  return design.tuning.status == design::TuningStatus::unstable ? undefined
-                                                                : design.beam_rms / millidegree;
+  return design.tuning.status == design::TuningStatus::unstable
+             ? undefined
+             : design.boresight_rms / millidegree;
 }
 
 }  // namespace
@@ -34,25 +35,25 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   const std::string name(control::to_string(section.structure));
   const double noise = design.tuning.evaluation.noise_variance;
   std::vector<Figure> figures{block_diagram("tuned-controller", title, section.structure,
-                                            section.gain_units.texts(design.tuning.law),
+                                            section.gain_units.texts(design.tuning.controller),
                                             section.problem.delay)};
-  auto of_law = law_figures({.id = "tuned",
-                             .section = title,
-                             .name = name,
-                             .problem = section.problem,
-                             .law = design.tuning.law,
-                             .margins = design.margins,
-                             .goals = section.goals,
-                             .noise_variance = noise,
-                             .curves = section.curves});
-  std::ranges::move(of_law, std::back_inserter(figures));
+  auto of_controller = controller_figures({.id = "tuned",
+                                           .section = title,
+                                           .name = name,
+                                           .problem = section.problem,
+                                           .controller = design.tuning.controller,
+                                           .margins = design.margins,
+                                           .goals = section.goals,
+                                           .noise_variance = noise,
+                                           .curves = section.curves});
+  std::ranges::move(of_controller, std::back_inserter(figures));
   std::vector<design::PointingBudget> budgets;
   for (const auto& result : section.budgets) budgets.push_back(result.budget);
-  std::vector<ComparedLaw> compared{{name, design.tuning.law, noise, section.effect}};
+  std::vector<ComparedController> compared{{name, design.tuning.controller, noise, section.effect}};
   for (const auto& present : section.present) {
     const auto& tuning = present.design.tuning;
     if (tuning.status == design::TuningStatus::unstable) continue;
-    compared.push_back({present_label(present.structure, present.retuned), tuning.law,
+    compared.push_back({present_label(present.structure, present.retuned), tuning.controller,
                         tuning.evaluation.noise_variance});
   }
   figures.push_back(rms_against_wind("tuned-rms-against-wind", title, section.problem, compared,
@@ -65,11 +66,12 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   return figures;
 }
 
-std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices) {
+std::vector<Figure> interpretations_figures(
+    const std::vector<InterpretationResult>& interpretations) {
   Figure figure;
-  figure.id = "choices";
-  figure.section = choices_heading(choices);
-  figure.title = std::ranges::any_of(choices, &ChoiceResult::contradicts)
+  figure.id = "interpretations";
+  figure.section = interpretations_heading(interpretations);
+  figure.title = std::ranges::any_of(interpretations, &InterpretationResult::contradicts)
                      ? "Boresight rms by reading of the contradictory values"
                      : "Boresight rms by reading that the case leaves open";
   figure.caption =
@@ -78,7 +80,7 @@ std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices) {
   figure.x = {.label = "boresight rms", .unit = "mdeg"};
   FigurePanel panel;
   FigureSeries bars{.style = SeriesStyle::bars};
-  for (const auto& choice : choices) {
+  for (const auto& choice : interpretations) {
     bars.y.push_back(static_cast<double>(panel.y.categories.size()));
     bars.x.push_back(choice.design ? rms_of(*choice.design) : undefined);
     panel.y.categories.push_back(choice.name);

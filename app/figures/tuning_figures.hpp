@@ -8,14 +8,15 @@
 
 namespace boresight::app {
 
-/// The tuned controller: block diagram, law_figures, its rms against wind speed, and its error
-/// budget with what the nonlinear antenna adds where it was simulated. None without a stable
+/// The tuned controller: block diagram, controller_figures, its rms against wind speed, and its
+/// error budget with what the nonlinear antenna adds where it was simulated. None without a stable
 /// controller.
 std::vector<Figure> tuning_figures(const TuningSection& section,
                                    const std::optional<TimeDomainSection>& in_time);
 
 /// Boresight error rms for each alternative interpretation of contradictory numbers.
-std::vector<Figure> choices_figures(const std::vector<ChoiceResult>& choices);
+std::vector<Figure> interpretations_figures(
+    const std::vector<InterpretationResult>& interpretations);
 
 /// Boresight error rms of every series, and hydraulic frequency and damping, against flywheel
 /// disks.

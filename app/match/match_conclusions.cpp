@@ -16,8 +16,8 @@
 namespace boresight::app {
 namespace {
 
-std::string per_cent(double share) {
-  return fmt::format("{:+.1f} %", 100.0 * share);
+std::string per_cent(double fraction) {
+  return fmt::format("{:+.1f} %", 100.0 * fraction);
 }
 
 std::optional<std::size_t> marked(const MatchSection& section, bool MatchPoint::*which) {
@@ -37,10 +37,10 @@ std::string feedback_of(const MatchSeries& series) {
 
 // Inertias as good beyond the flat range; empty without one.
 std::string elsewhere(const MatchSection& section, const MatchSeries& series) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t maximum = 3;
   auto disks = as_good_elsewhere(section, series);
   if (disks.empty()) return "";
-  const std::size_t more = disks.size() > most ? disks.size() - most : 0;
+  const std::size_t more = disks.size() > maximum ? disks.size() - maximum : 0;
   disks.resize(disks.size() - more);
   std::vector<std::string> named;
   for (const double at : disks) named.push_back(fmt::format("{:.3g}", at));
@@ -50,11 +50,11 @@ std::string elsewhere(const MatchSection& section, const MatchSeries& series) {
 
 std::string best_of(const MatchSection& section, const MatchSeries& series) {
   const std::size_t best = series.best.value_or(0);
-  const double least = series.values[best].beam_rms;
+  const double minimum = series.values[best].boresight_rms;
   std::string text = fmt::format(
       "With {} ({}) the minimum rms is {:.4f} mdeg at {:.3g} disks (R = {:.2f}){}; within 1 % of "
       "it from {:.1f} to {:.1f} disks, within 5 % from {:.1f} to {:.1f}{}.",
-      series.name, feedback_of(series), least / millidegree, section.points[best].disks,
+      series.name, feedback_of(series), minimum / millidegree, section.points[best].disks,
       section.points[best].motor_to_load_ratio,
       series.best_at_end ? ", an end of the range studied" : "", series.within_1_percent.lowest,
       series.within_1_percent.highest, series.within_5_percent.lowest,
@@ -62,8 +62,8 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
   const auto at = [&](bool MatchPoint::*which, const char* words) {
     const auto point = marked(section, which);
     if (!point || !series.values[*point].found) return;
-    text +=
-        fmt::format(" {} costs {}.", words, per_cent(series.values[*point].beam_rms / least - 1.0));
+    text += fmt::format(" {} costs {}.", words,
+                        per_cent(series.values[*point].boresight_rms / minimum - 1.0));
   };
   at(&MatchPoint::as_built, "As built");
   at(&MatchPoint::unit_ratio, "One to one");
@@ -71,7 +71,7 @@ std::string best_of(const MatchSection& section, const MatchSeries& series) {
 }
 
 // Structures excluded because they limit-cycle.
-void conclude_hunting(const MatchSection& section, std::vector<std::string>& sentences) {
+void conclude_limit_cycles(const MatchSection& section, std::vector<std::string>& sentences) {
   const std::size_t built = as_built(section);
   std::vector<std::string> as_they_are, with_best, unseen;
   for (const auto& series : section.series) {
@@ -79,16 +79,17 @@ void conclude_hunting(const MatchSection& section, std::vector<std::string>& sen
     bool seen = true;
     const auto look = [&](std::size_t point, std::vector<std::string>& list, std::string_view at) {
       const auto& run = series.values[point].time_domain;
-      if (!run || !hunts_at(section, series, point)) return;
-      if (hunting_beyond(section, run->hunting)) {
+      if (!run || !has_limit_cycle_at(section, series, point)) return;
+      if (limit_cycle_beyond(section, run->limit_cycles)) {
         list.push_back(fmt::format("{} (+-{:.2f} mdeg{})", series.name,
-                                   design::hunting_amplitude(run->hunting) / millidegree, at));
+                                   design::limit_cycle_amplitude(run->limit_cycles) / millidegree,
+                                   at));
       } else {
         seen = false;
       }
     };
     look(built, as_they_are, "");
-    if (const std::size_t best = hunting_point(section, series); best != built) {
+    if (const std::size_t best = limit_cycle_point(section, series); best != built) {
       look(best, with_best, fmt::format(" at {:.3g} disks", section.points[best].disks));
     }
     if (!seen) unseen.push_back(series.name);
@@ -121,8 +122,8 @@ void conclude_hunting(const MatchSection& section, std::vector<std::string>& sen
 
 // Effect of the inertia on a structure against that of the structure at one inertia.
 void conclude_weight(const MatchSection& section, std::vector<std::string>& sentences) {
-  const MatchSeries* most = most_moved(section);
-  if (most == nullptr) {
+  const MatchSeries* maximum = most_moved(section);
+  if (maximum == nullptr) {
     if (std::ranges::any_of(section.series,
                             [](const auto& series) { return series.best.has_value(); })) {
       sentences.emplace_back(
@@ -131,7 +132,7 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
     }
     return;
   }
-  const double widest = span_of(*most);
+  const double widest = span_of(*maximum);
   if (hardly_matters(section)) {
     sentences.push_back(
         fmt::format("Over all inertias studied no structure's rms changes by more than {:.1f} %: "
@@ -141,17 +142,17 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
   }
   const design::StructuresAsBuilt built = structures_as_built(section);
   if (built.count == 0 || !marked(section, &MatchPoint::as_built)) return;
-  if (built.least == built.largest) {
+  if (built.minimum == built.largest) {
     sentences.push_back(fmt::format(
         "Over all inertias studied the rms changes most with {}, by {:.0f} %; the effect of "
         "another structure at the inertia as built is not known from this study.",
-        most->name, 100.0 * widest));
+        maximum->name, 100.0 * widest));
     return;
   }
   sentences.push_back(fmt::format(
       "Over all inertias studied the rms changes most with {}, by {:.0f} %; at the inertia as "
       "built the choice of structure changes it by {:.0f} % ({} against {}): {} matters more.",
-      most->name, 100.0 * widest, 100.0 * built.change, built.least->name, built.largest->name,
+      maximum->name, 100.0 * widest, 100.0 * built.change, built.minimum->name, built.largest->name,
       built.change > widest ? "the structure" : "the inertia"));
 }
 
@@ -231,7 +232,7 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
     sentences.push_back(fmt::format(
         "The rule \"{}\" (R = {:.2f}, {:.1f} disks) costs {} of rms with {}{}, against {} own "
         "best: {}.",
-        text_of(rule.rule), rule.motor_to_load_ratio, *rule.disks, per_cent(costs.least),
+        text_of(rule.rule), rule.motor_to_load_ratio, *rule.disks, per_cent(costs.minimum),
         costs.cheapest->name,
         one ? "" : fmt::format(" and {} with {}", per_cent(costs.largest), costs.dearest->name),
         one ? "its" : "each structure's", verdict));
@@ -250,13 +251,13 @@ void conclude_rules(const MatchSection& section, std::vector<std::string>& sente
 }
 
 // Inertias at which a structure limit-cycles; empty without one.
-std::string hunting_at(const MatchSection& section, const MatchSeries& series) {
+std::string limit_cycle_at(const MatchSection& section, const MatchSeries& series) {
   std::vector<std::string> places;
   for (std::size_t i = 0; i < section.points.size(); ++i) {
     const auto& run = series.values[i].time_domain;
     if (!run) continue;
     std::vector<std::string> rates;
-    for (const auto& one : run->hunting) {
+    for (const auto& one : run->limit_cycles) {
       if (!one.limit_cycle || one.status != design::RunStatus::complete) continue;
       rates.emplace_back(one.rate == 0.0 ? "at rest" : "at the tracking rate");
     }
@@ -272,20 +273,20 @@ void conclude_friction(const MatchSection& section, std::vector<std::string>& se
   std::set<double> disks;                                 // where a reversal was simulated
   std::map<std::string, std::vector<std::string>> alike;  // structures by their limit cycles
   for (const auto& series : section.series) {
-    double least = HUGE_VAL, largest = 0.0;
+    double minimum = HUGE_VAL, largest = 0.0;
     for (std::size_t i = 0; i < section.points.size(); ++i) {
       const auto& run = series.values[i].time_domain;
       if (!run) continue;
       const auto& reversal = run->reversal;
       if (!reversal || reversal->status != design::RunStatus::complete) continue;
       disks.insert(section.points[i].disks);
-      least = std::min(least, reversal->beam_error);
-      largest = std::max(largest, reversal->beam_error);
+      minimum = std::min(minimum, reversal->boresight_error);
+      largest = std::max(largest, reversal->boresight_error);
     }
     if (!(largest > 0.0)) continue;
-    errors.push_back(fmt::format("{:.2f} to {:.2f} mdeg with {}", least / millidegree,
+    errors.push_back(fmt::format("{:.2f} to {:.2f} mdeg with {}", minimum / millidegree,
                                  largest / millidegree, series.name));
-    alike[hunting_at(section, series)].push_back(series.name);
+    alike[limit_cycle_at(section, series)].push_back(series.name);
   }
   if (errors.empty()) return;
   std::vector<std::string> cycles;
@@ -306,17 +307,18 @@ void conclude_friction(const MatchSection& section, std::vector<std::string>& se
 // The controller for the motors as built; empty where it was not asked for.
 std::string recommended_as_built(const MatchSection& section) {
   if (!section.tuned_as_built) return "";
-  const TunedLaw* law = recommended_law(*section.tuned_as_built);
-  if (law == nullptr) {
+  const TunedController* controller = recommended_tuned_controller(*section.tuned_as_built);
+  if (controller == nullptr) {
     return "For the motors as built no controller is recommended: `boresight tune` says why.";
   }
   return fmt::format(
       "For the motors as built the recommended controller is {}: {:.4f} mdeg rms in {:.3g} m/s, "
       "linear{}.",
-      name_and_purpose(*law), law->beam_rms / millidegree, law->wind_speed,
-      law->in_time
-          ? fmt::format(", {:.4f} on the nonlinear antenna", law->in_time->rms() / millidegree)
-          : "");
+      name_and_purpose(*controller), controller->boresight_rms / millidegree,
+      controller->wind_speed,
+      controller->in_time ? fmt::format(", {:.4f} on the nonlinear antenna",
+                                        controller->in_time->rms() / millidegree)
+                          : "");
 }
 
 }  // namespace
@@ -347,7 +349,7 @@ std::vector<std::string> conclude(const MatchSection& section) {
           "No controller of {} found meets the constraints at any inertia.", series.name));
     }
   }
-  conclude_hunting(section, sentences);
+  conclude_limit_cycles(section, sentences);
   conclude_weight(section, sentences);
   conclude_rules(section, sentences);
   conclude_variants(section, sentences);

@@ -2,7 +2,7 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/models/linear_models.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/tune/controllers_in_time.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
@@ -14,32 +14,32 @@ LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio
   return {antenna, plant::to_state_space(antenna), gear_ratio, std::nullopt};
 }
 
-LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
-                           const std::string& description) {
+LinearModels linear_models(const design::TrackingProblem& problem,
+                           const control::Controller& controller, const std::string& description) {
   LinearModels models = linear_models(problem.plant, problem.gear_ratio);
   const double sample_time = control::sample_time_of(problem.delay);
   models.loop = {description,
-                 law,
+                 controller,
                  problem.delay,
-                 design::controller_of(law, description, 0.0).system,
-                 design::controller_of(law, description, sample_time).system,
-                 control::closed_loop(problem.plant, law, problem.delay)};
+                 design::controller_of(controller, description, 0.0).system,
+                 design::controller_of(controller, description, sample_time).system,
+                 control::closed_loop(problem.plant, controller, problem.delay)};
   return models;
 }
 
 std::optional<LinearModels> linear_models(const Report& report) {
   if (report.tuned) {
-    const TunedLaw* shown =
-        shown_law(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
+    const TunedController* shown =
+        shown_controller(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
     const auto& problem = report.tuned->problem;
     if (shown == nullptr) return linear_models(problem.plant, problem.gear_ratio);
-    const bool recommended = recommended_law(*report.tuned) != nullptr;
-    return linear_models(problem, shown->design.tuning.law,
+    const bool recommended = recommended_tuned_controller(*report.tuned) != nullptr;
+    return linear_models(problem, shown->design.tuning.controller,
                          description_of(*shown) + (recommended ? "" : ", not recommended"));
   }
   if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
-    const auto& law = report.tuning->design.tuning.law;
-    return linear_models(report.tuning->problem, law, law.structure.name());
+    const auto& controller = report.tuning->design.tuning.controller;
+    return linear_models(report.tuning->problem, controller, controller.structure.name());
   }
   if (report.plant) return linear_models(report.plant->plant, report.plant->gear_ratio);
   return std::nullopt;

@@ -10,9 +10,9 @@
 namespace boresight::app {
 
 /// A controller in a form for other programs. Inputs and outputs as in docs/benchmark-protocol.md.
-struct LawModels {
+struct ControllerModels {
   std::string description;  // the controller, in words
-  control::ControlLaw law;
+  control::Controller controller;
   double dead_time = 0.0;        // s, of the loop
   plant::StateSpace continuous;  // controller; the dead time is the loop's
   /// In the sampled form that the antenna's computer runs: prewarped, Tustin, its sample time two
@@ -28,17 +28,17 @@ struct LinearModels {
   plant::AntennaPlant antenna;
   plant::StateSpace plant;  // plant::to_state_space(antenna)
   double gear_ratio = 1.0;  // motor turns per turn of the antenna
-  std::optional<LawModels> loop;
+  std::optional<ControllerModels> loop;
 };
 
 /// A plant alone.
 LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio);
 /// Also with a controller on the plant. @throws InvalidInput as control::validate.
-LinearModels linear_models(const design::TrackingProblem& problem, const control::ControlLaw& law,
-                           const std::string& description);
+LinearModels linear_models(const design::TrackingProblem& problem,
+                           const control::Controller& controller, const std::string& description);
 /// From a report of model, redesign or tune. The controller is the one that a tune report
-/// recommends (shown_law), or the tuned one of a redesign if it meets its constraints; else the
-/// plant alone. Empty for a report without a plant.
+/// recommends (shown_controller), or the tuned one of a redesign if it meets its constraints; else
+/// the plant alone. Empty for a report without a plant.
 std::optional<LinearModels> linear_models(const Report& report);
 
 /// A MAT file of version 5 (docs/formats.md): plant with parameters and frequency responses. With a

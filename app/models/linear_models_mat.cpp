@@ -71,13 +71,13 @@ io::MatVariables plant_response_fields(const LinearModels& models,
     const auto at = plant::point(response, i);
     Eigen::MatrixXcd page(4, 2);
     page << at.tachometer_command, at.tachometer_wind, at.torque_command, at.torque_wind,
-        at.encoder_command, at.encoder_wind, at.beam_command, at.beam_wind;
+        at.encoder_command, at.encoder_wind, at.boresight_command, at.boresight_wind;
     pages.push_back(std::move(page));
   }
   return response_fields(frequency, pages, models.plant.inputs, models.plant.outputs);
 }
 
-io::MatVariables closed_loop_response_fields(const LawModels& loop,
+io::MatVariables closed_loop_response_fields(const ControllerModels& loop,
                                              const Eigen::ArrayXd& frequency) {
   std::vector<Eigen::MatrixXcd> pages;
   for (const double w : frequency) {
@@ -87,7 +87,7 @@ io::MatVariables closed_loop_response_fields(const LawModels& loop,
 }
 
 // L at each break with its exact dead time: S = 1/(1 + L).
-io::MatVariables loop_gain_fields(const LinearModels& models, const LawModels& loop,
+io::MatVariables loop_gain_fields(const LinearModels& models, const ControllerModels& loop,
                                   const Eigen::ArrayXd& frequency) {
   const plant::PointResponse response(models.antenna);
   io::MatVariables fields;
@@ -96,21 +96,22 @@ io::MatVariables loop_gain_fields(const LinearModels& models, const LawModels& l
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     std::vector<Eigen::MatrixXcd> pages;
     for (const double w : frequency) {
-      pages.emplace_back(Eigen::MatrixXcd::Constant(
-          1, 1,
-          control::loop_gain(response(w), w, loop.law, loop.dead_time, control::loop_breaks[b])));
+      pages.emplace_back(
+          Eigen::MatrixXcd::Constant(1, 1,
+                                     control::loop_gain(response(w), w, loop.controller,
+                                                        loop.dead_time, control::loop_breaks[b])));
     }
     fields.add_pages(names[b], pages);
   }
   return fields;
 }
 
-io::MatVariables gain_fields(const control::ControlLaw& law) {
-  const auto& descriptions = law.structure.gains();
+io::MatVariables gain_fields(const control::Controller& controller) {
+  const auto& descriptions = controller.structure.gains();
   io::MatVariables fields;
   std::vector<std::string> symbols, names, units;
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
-    fields.add_number(descriptions[i].symbol, law.gains[i]);
+  for (std::size_t i = 0; i < controller.gains.size(); ++i) {
+    fields.add_number(descriptions[i].symbol, controller.gains[i]);
     symbols.push_back(descriptions[i].symbol);
     names.push_back(descriptions[i].name);
     units.push_back(descriptions[i].unit);
@@ -135,10 +136,10 @@ std::string to_mat(const LinearModels& models, const std::string& command,
   variables.add_structure("plant", io::state_space_mat(models.plant));
   variables.add_structure("plant_response", plant_response_fields(models, frequency));
   if (models.loop) {
-    const LawModels& loop = *models.loop;
+    const ControllerModels& loop = *models.loop;
     variables.add_text("controller_name", loop.description);
-    variables.add_text("structure", loop.law.structure.name());
-    variables.add_structure("gains", gain_fields(loop.law));
+    variables.add_text("structure", loop.controller.structure.name());
+    variables.add_structure("gains", gain_fields(loop.controller));
     variables.add_structure("controller", io::state_space_mat(loop.continuous));
     variables.add_structure("sampled_controller", io::state_space_mat(loop.sampled_controller));
     variables.add_structure("closed_loop", io::state_space_mat(loop.closed_loop));

@@ -6,8 +6,8 @@
 namespace boresight::app {
 namespace {
 
-std::string per_cent(double share) {
-  const double value = 100.0 * share;
+std::string per_cent(double fraction) {
+  const double value = 100.0 * fraction;
   return value > 0.0 && value < 0.01 ? fmt::format("{:.2g} %", value)
                                      : fmt::format("{:.2f} %", value);
 }
@@ -19,7 +19,7 @@ std::string between(const design::EstimatedNumber& number) {
 
 }  // namespace
 
-std::string judged_by(const design::NonlinearEffect& effect) {
+std::string evaluated_by(const design::NonlinearEffect& effect) {
   if (effect.factor == 1.0 && effect.amplitude == 0.0) return "linear";
   if (!std::isfinite(effect.factor)) return "as its simulation was lost";
   std::string text =
@@ -35,7 +35,7 @@ std::vector<std::string> conclude(const MonteCarloSection& section) {
   const std::string wind = fmt::format("in the {} wind model at {:g} m/s mean speed",
                                        plant::to_string(section.wind_model), section.wind_speed);
   if (section.stable > 0) {
-    const auto& q = section.beam_rms.quantiles;
+    const auto& q = section.boresight_rms.quantiles;
     sentences.push_back(
         fmt::format("With these fixed gains, {}, the boresight rms over the stable plants has "
                     "median {:.4f} mdeg and 95 % quantile {:.4f} mdeg.",
@@ -53,10 +53,10 @@ std::vector<std::string> conclude(const MonteCarloSection& section) {
     sentences.push_back(fmt::format(
         "The budget '{}' (band {}, {:.4f} mdeg) is met {} by {} of the plants, per axis, {}.",
         budget.name, budget.band, budget.rms / millidegree, wind, between(met),
-        judged_by(section.effect)));
+        evaluated_by(section.effect)));
   }
-  sentences.push_back(
-      fmt::format("All constraints are met on {} of the plants.", between(section.all_goals_met)));
+  sentences.push_back(fmt::format("All constraints are met on {} of the plants.",
+                                  between(section.all_constraints_met)));
   if (!section.correlations.empty() && section.stable > 9) {
     const auto& first = section.correlations.front();
     sentences.push_back(fmt::format("The rms depends most on the {} (rank correlation {:+.2f}).",
@@ -65,11 +65,11 @@ std::vector<std::string> conclude(const MonteCarloSection& section) {
   if (section.retuned) {
     const auto& retuned = *section.retuned;
     sentences.push_back(
-        retuned.price.draws > 0
+        retuned.fixed_gain_cost.random_samples > 0
             ? fmt::format("Fixed gains cost {:.1f} % of rms at the median and {:.1f} % at the 95 % "
                           "quantile, compared with plant-specific gains.",
-                          100.0 * retuned.price.quantiles[3].number.value,
-                          100.0 * retuned.price.quantiles[5].number.value)
+                          100.0 * retuned.fixed_gain_cost.quantiles[3].number.value,
+                          100.0 * retuned.fixed_gain_cost.quantiles[5].number.value)
             : std::string("No plant is stable with both fixed and plant-specific gains."));
   }
   return sentences;

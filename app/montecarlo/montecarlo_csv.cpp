@@ -10,14 +10,14 @@
 
 namespace boresight::app {
 
-std::string_view standing_text(design::Standing standing) {
-  switch (standing) {
-    case design::Standing::unstable:
+std::string_view stability_text(design::StabilityBasis stability_basis) {
+  switch (stability_basis) {
+    case design::StabilityBasis::unstable:
       return "unstable";
-    case design::Standing::undecided:
+    case design::StabilityBasis::undecided:
       return "undecided";
-    case design::Standing::stable_by_eigenvalues:
-    case design::Standing::stable_by_winding:
+    case design::StabilityBasis::stable_by_eigenvalues:
+    case design::StabilityBasis::stable_by_encirclements:
       break;
   }
   return "stable";
@@ -45,10 +45,11 @@ std::string to_csv(const MonteCarloOutcome& outcome) {
   fmt::memory_buffer text;
   const auto out = std::back_inserter(text);
   fmt::format_to(out,
-                 "plant{},standing,beam_rms_mdeg,climate_beam_rms_mdeg,valve_effort_rad_per_s,rate_"
+                 "plant{},stability_verdict,boresight_rms_mdeg,climate_boresight_rms_mdeg,control_"
+                 "effort_rad_per_s,rate_"
                  "loop_peak_1,"
-                 "valve_command_peak_1,position_loop_peak_1,worst_goal_ratio_1,"
-                 "retuned_beam_rms_mdeg\n",
+                 "valve_command_peak_1,position_loop_peak_1,worst_constraint_1,"
+                 "retuned_boresight_rms_mdeg\n",
                  input_columns());
   // An empty cell for what there is not.
   const auto cell = [&](double value) {
@@ -65,12 +66,12 @@ std::string to_csv(const MonteCarloOutcome& outcome) {
     for (const auto& one : run.outcomes(block)) {
       fmt::format_to(out, "{}", index);
       for (const double value : outcome.distribution->draw(section.seed, index).values) cell(value);
-      fmt::format_to(out, ",{}", standing_text(one.standing));
-      cell(one.beam_rms / millidegree);
+      fmt::format_to(out, ",{}", stability_text(one.stability_basis));
+      cell(one.boresight_rms / millidegree);
       cell(one.climate_rms / millidegree);
-      cell(one.valve_effort);
+      cell(one.control_effort);
       for (const double peak : one.sensitivity_peaks) cell(peak);
-      cell(one.worst_goal_ratio);
+      cell(one.worst_constraint);
       cell(one.retuned_rms / millidegree);
       text.push_back('\n');
       ++index;

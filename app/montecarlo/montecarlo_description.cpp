@@ -13,7 +13,7 @@ namespace unit = io::key_units;
 using io::describe_distribution;
 using io::describe_estimate;
 
-void describe_draw(io::Visitor& v, const design::PlantDraw& draw) {
+void describe_sample(io::Visitor& v, const design::PlantSample& draw) {
   using enum design::UncertainInput;
   v.defined_as("inputs",
                "Factors on the numbers of the case (of the records' estimate, where there are "
@@ -35,39 +35,42 @@ void describe_plant(io::Visitor& v, const NotablePlant& plant) {
   const auto& outcome = plant.outcome;
   v.defined_as("plant", "Sample number `index` of the seed.");
   v.count("index", plant.index, "From 0.");
-  v.group("inputs", "The sample.", [&] { describe_draw(v, plant.draw); });
-  v.word("standing", standing_text(outcome.standing), {"stable", "unstable", "undecided"},
+  v.group("inputs", "The sample.", [&] { describe_sample(v, plant.draw); });
+  v.word("stability_verdict", stability_text(outcome.stability_basis),
+         {"stable", "unstable", "undecided"},
          "Whether the loop is stable; undecided: by less than what the rational dead time leaves "
          "out.");
-  v.number("beam_rms", outcome.beam_rms, unit::millidegree, "In the design wind, per axis.");
-  v.number("climate_beam_rms", outcome.climate_rms, unit::millidegree,
+  v.number("boresight_rms", outcome.boresight_rms, unit::millidegree,
+           "In the design wind, per axis.");
+  v.number("climate_boresight_rms", outcome.climate_rms, unit::millidegree,
            "Over the site's wind climate.");
-  v.number("valve_effort", outcome.valve_effort, unit::radian_per_second,
+  v.number("control_effort", outcome.control_effort, unit::radian_per_second,
            "Rms of the valve command from the sensors' noise.");
   v.numbers("sensitivity_peaks", outcome.sensitivity_peaks, unit::ratio,
-            "Rate loop alone, valve command, position loop.", {}, {.least = 3, .most = 3});
-  v.number("worst_goal_ratio", outcome.worst_goal_ratio, unit::ratio,
+            "Rate loop alone, valve command, position loop.", {}, {.minimum = 3, .maximum = 3});
+  v.number("worst_constraint", outcome.worst_constraint, unit::ratio,
            "Largest value/limit of the constraints.");
-  v.number("retuned_beam_rms", outcome.retuned_rms, unit::millidegree,
+  v.number("retuned_boresight_rms", outcome.retuned_rms, unit::millidegree,
            "With gains tuned for this plant.");
 }
 
 // A gain of the law that is held.
-struct HeldGain {
+struct FixedGain {
   std::string symbol, name, unit;
   double value = 0.0;
   std::string as_written;
 };
 
-void describe_law(io::Visitor& v, const MonteCarloSection& section) {
-  std::vector<HeldGain> gains;
+void describe_controller(io::Visitor& v, const MonteCarloSection& section) {
+  std::vector<FixedGain> gains;
   for (std::size_t i = 0; i < section.gains.size(); ++i) {
-    const auto& gain = section.law.structure.gains().at(i);
-    gains.push_back({gain.symbol, gain.name, gain.unit, section.law.gains.at(i), section.gains[i]});
+    const auto& gain = section.controller.structure.gains().at(i);
+    gains.push_back(
+        {gain.symbol, gain.name, gain.unit, section.controller.gains.at(i), section.gains[i]});
   }
   v.text("structure", section.structure, "As the user names it.");
-  v.text("source", section.law_source, "Where the gains come from.");
-  v.list("gains", gains, "Fixed on every plant.", [&](const HeldGain& gain) {
+  v.text("source", section.controller_source, "Where the gains come from.");
+  v.list("gains", gains, "Fixed on every plant.", [&](const FixedGain& gain) {
     v.text("symbol", gain.symbol, "Its symbol.");
     v.text("name", gain.name, "Its name.");
     v.text("unit", gain.unit, "Of the value: SI.");
@@ -83,20 +86,20 @@ void describe_stability(io::Visitor& v, const MonteCarloSection& section) {
   describe_estimate(v, "probability_not_stable", section.instability, unit::ratio,
                     "Of a sampled plant, undecided ones counted.");
   v.count("confirmed_by_eigenvalues", section.confirmed, "Plants whose poles were computed.");
-  v.count("winding_contradicted", section.contradicted,
+  v.count("encirclements_contradicted", section.contradicted,
           "Of these, those that contradict the Nyquist criterion.");
   v.number("confirmed_above_peak", section.confirm_peak, unit::ratio,
            "Ms above which poles are computed.");
   v.count("confirmed_every", section.confirm_every, "Of the other plants, one in so many.");
   v.list("not_stable_plants", section.unstable_plants, "The first thousand; --csv has all.",
          [&](const NotablePlant& plant) { describe_plant(v, plant); },
-         {.most = MonteCarloSection::most_listed});
+         {.maximum = MonteCarloSection::max_listed});
 }
 
 void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
-  describe_distribution(v, "beam_rms", section.beam_rms, unit::millidegree,
+  describe_distribution(v, "boresight_rms", section.boresight_rms, unit::millidegree,
                         "In the design wind, per axis.");
-  describe_distribution(v, "climate_beam_rms", section.climate_rms, unit::millidegree,
+  describe_distribution(v, "climate_boresight_rms", section.climate_rms, unit::millidegree,
                         "Over the site's wind climate; null without one.");
   v.list("bands", section.losses, "Of the antenna.", [&](const MonteCarloSection::BandLoss& loss) {
     v.text("band", loss.band.name, "Its name.");
@@ -107,11 +110,12 @@ void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
     describe_distribution(v, "climate_mean_loss_two_axes", loss.climate_loss, unit::decibel_as_kept,
                           "The same over the site's wind climate; null without one.");
   });
-  v.object("effect", section.effect,
-           "Of a simulation on the case's own plant: budgets are judged by it, of a factor of at "
-           "least 1.");
+  v.object(
+      "effect", section.effect,
+      "Of a simulation on the case's own plant: budgets are evaluated by it, of a factor of at "
+      "least 1.");
   v.list("budgets", section.budgets, "Pointing budgets.",
-         [&](const MonteCarloSection::BudgetChance& chance) {
+         [&](const MonteCarloSection::BudgetProbability& chance) {
            v.text("name", chance.budget.name, "Its name.");
            v.text("band", chance.budget.band, "Frequency band.");
            v.text("convention", chance.budget.convention, "What the loss is taken of.");
@@ -119,21 +123,22 @@ void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
            describe_estimate(v, "probability_met", chance.met, unit::ratio,
                              "In the design wind; no unstable plant meets one.");
          });
-  v.list("goals", section.goals_broken, "Constraints.",
-         [&](const MonteCarloSection::GoalChance& chance) {
-           v.text("goal", chance.goal, "Which.");
+  v.list("constraints", section.constraints_violated, "Constraints.",
+         [&](const MonteCarloSection::ConstraintProbability& chance) {
+           v.text("constraint", chance.goal, "Which.");
            describe_estimate(v, "probability_broken", chance.broken, unit::ratio,
                              "By a stable plant, among all plants.");
          });
 }
 
 void describe_retuned(io::Visitor& v, const MonteCarloSection::Retuned& retuned) {
-  v.count("laws_found", retuned.found,
+  v.count("controllers_found", retuned.found,
           "Plants for which gains that meet the constraints were found.");
-  v.count("unstable_under_held_law", retuned.only_retuned,
+  v.count("unstable_with_fixed_gains", retuned.only_retuned,
           "Of these, those unstable with the fixed gains.");
-  describe_distribution(v, "beam_rms", retuned.beam_rms, unit::millidegree, "With these gains.");
-  describe_distribution(v, "price_of_one_law", retuned.price, unit::ratio,
+  describe_distribution(v, "boresight_rms", retuned.boresight_rms, unit::millidegree,
+                        "With these gains.");
+  describe_distribution(v, "cost_of_fixed_gains", retuned.fixed_gain_cost, unit::ratio,
                         "Rms with fixed gains over rms with plant-specific gains, minus 1.");
 }
 
@@ -153,7 +158,7 @@ void describe(io::Visitor& v, const MonteCarloSection& section) {
     v.text("source", section.distribution, "Distribution that they are sampled from.");
     v.texts("inputs", inputs, "That vary.");
   });
-  v.group("law", "Evaluated on every plant.", [&] { describe_law(v, section); });
+  v.group("controller", "Evaluated on every plant.", [&] { describe_controller(v, section); });
   v.word("wind_model", plant::to_string(section.wind_model),
          {to_string(plant::WindModel::uniform), to_string(plant::WindModel::vickery),
           to_string(plant::WindModel::coherence)},
@@ -161,7 +166,7 @@ void describe(io::Visitor& v, const MonteCarloSection& section) {
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean, of the design wind.");
   v.group("stability", "Of the loop on each plant.", [&] { describe_stability(v, section); });
   describe_pointing(v, section);
-  describe_estimate(v, "probability_all_goals_met", section.all_goals_met, unit::ratio,
+  describe_estimate(v, "probability_all_constraints_met", section.all_constraints_met, unit::ratio,
                     "Of a sampled plant.");
   v.list("correlations", section.correlations, "Of inputs with the boresight rms.",
          [&](const MonteCarloSection::Correlation& one) {

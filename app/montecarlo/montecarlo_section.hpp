@@ -21,9 +21,9 @@ struct MonteCarloSection : design::MonteCarloSummary {
   std::uint64_t seed = 1;
 
   std::string distribution;  // what the plants are drawn from
-  control::ControlLaw law;
+  control::Controller controller;
   std::string structure;           // as the user names it
-  std::string law_source;          // where the gains come from
+  std::string controller_source;   // where the gains come from
   std::vector<std::string> gains;  // in the engineer's units
   plant::WindModel wind_model = plant::WindModel::coherence;
   double wind_speed = 0.0;  // m/s
@@ -34,6 +34,6 @@ struct MonteCarloSection : design::MonteCarloSummary {
 };
 
 /// Basis of the budget verdicts: "linear", or the simulated equivalent of each linear rms.
-std::string judged_by(const design::NonlinearEffect& effect);
+std::string evaluated_by(const design::NonlinearEffect& effect);
 
 }  // namespace boresight::app

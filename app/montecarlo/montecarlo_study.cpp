@@ -90,10 +90,10 @@ std::string content_of(const std::string& path) {
 }
 
 // Gains as bytes, so that every rank holds the same law to the last bit.
-std::string law_bytes(const ChosenController& held) {
+std::string controller_bytes(const ChosenController& fixed_gain) {
   std::ostringstream text;
-  text << held.structure << '\n' << held.source << '\n' << std::hexfloat;
-  for (const double gain : held.law.gains) text << gain << '\n';
+  text << fixed_gain.structure << '\n' << fixed_gain.source << '\n' << std::hexfloat;
+  for (const double gain : fixed_gain.controller.gains) text << gain << '\n';
   return text.str();
 }
 
@@ -101,20 +101,21 @@ std::string gains_text(const std::string& text) {
   return text.substr(text.find('\n', text.find('\n') + 1) + 1);
 }
 
-ChosenController law_from(const std::string& text, const io::Case& antenna) {
-  ChosenController held;
+ChosenController controller_from(const std::string& text, const io::Case& antenna) {
+  ChosenController fixed_gain;
   std::istringstream lines(text);
-  std::getline(lines, held.structure);
-  std::getline(lines, held.source);
-  held.law.structure = io::structure_named(antenna, held.structure);
+  std::getline(lines, fixed_gain.structure);
+  std::getline(lines, fixed_gain.source);
+  fixed_gain.controller.structure = io::structure_named(antenna, fixed_gain.structure);
   // Streams do not read hexadecimal numbers.
   std::istringstream numbers(gains_text(text));
-  for (std::string line; std::getline(numbers, line);) held.law.gains.push_back(std::stod(line));
-  return held;
+  for (std::string line; std::getline(numbers, line);)
+    fixed_gain.controller.gains.push_back(std::stod(line));
+  return fixed_gain;
 }
 
-ChosenController make_law(const MonteCarloArguments& arguments, const Population& population,
-                          const std::function<bool()>& interrupted) {
+ChosenController make_controller(const MonteCarloArguments& arguments, const Population& population,
+                                 const std::function<bool()>& interrupted) {
   const io::Case& antenna = population->antenna;
   if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
     return std::move(*named);
@@ -222,17 +223,17 @@ class Work {
 // With law and case.
 MonteCarloSection section_of(design::MonteCarloSummary summary,
                              const MonteCarloArguments& arguments, const io::Case& antenna,
-                             const design::MonteCarlo& study, const ChosenController& held) {
+                             const design::MonteCarlo& study, const ChosenController& fixed_gain) {
   MonteCarloSection section;
   static_cast<design::MonteCarloSummary&>(section) = std::move(summary);
   section.case_path = arguments.case_path;
   section.title = antenna.title;
   section.axis = io::pointing_axis(antenna);
   section.seed = arguments.seed;
-  section.law = held.law;
-  section.structure = held.structure;
-  section.law_source = held.source;
-  section.gains = io::GainUnits(antenna).texts(held.law);
+  section.controller = fixed_gain.controller;
+  section.structure = fixed_gain.structure;
+  section.controller_source = fixed_gain.source;
+  section.gains = io::GainUnits(antenna).texts(fixed_gain.controller);
   section.wind_model = study.problem.wind.model;
   section.wind_speed = study.problem.wind.mean_speed;
   section.assumed = assumed_inputs(antenna, {.time_runs = section.effect.factor != 1.0});
@@ -253,9 +254,9 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
                                  const std::function<bool()>& interrupted) {
   Population population;
   design::MonteCarlo study;
-  ChosenController held;
+  ChosenController fixed_gain;
   MonteCarloOutcome outcome;
-  std::string law_text;
+  std::string controller_text;
   on_all(ranks, [&] {
     if (ranks.first()) require_outputs(arguments);
     io::Case antenna = io::read_case(arguments.case_path);
@@ -269,16 +270,16 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
     population = std::make_shared<io::DesignedAntenna>(
         designed_antenna(antenna, arguments.seed, arguments.threads, interrupted));
     if (ranks.first()) {
-      held = make_law(arguments, population, interrupted);
-      law_text = law_bytes(held);
+      fixed_gain = make_controller(arguments, population, interrupted);
+      controller_text = controller_bytes(fixed_gain);
     }
   });
-  law_text = ranks.broadcast(law_text);
+  controller_text = ranks.broadcast(controller_text);
   std::string digest;
   on_all(ranks, [&] {
-    if (!ranks.first()) held = law_from(law_text, population->antenna);
+    if (!ranks.first()) fixed_gain = controller_from(controller_text, population->antenna);
     study = monte_carlo_of(
-        population->mission, population->distribution, held.law,
+        population->mission, population->distribution, fixed_gain.controller,
         {.plants = arguments.plants, .seed = arguments.seed, .retune = arguments.retune});
     outcome.run = std::make_unique<design::MonteCarloRun>(study);
     if (arguments.checkpoint_path.empty() || !ranks.first()) return;
@@ -297,7 +298,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   MonteCarloSection& section = outcome.section;
   section = section_of(summarise(*outcome.run, population->mission, *outcome.distribution,
                                  arguments.seed, arguments.threads),
-                       arguments, population->antenna, study, held);
+                       arguments, population->antenna, study, fixed_gain);
   section.distribution = source_text(*outcome.distribution);
   section.conclusions = conclude(section);
   std::string warning = resonance_warning(resonance_verdict(*population));

@@ -51,7 +51,7 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
 std::vector<std::string> conclude(const MonteCarloSection& section);
 
 /// "stable", "unstable" or "undecided".
-std::string_view standing_text(design::Standing standing);
+std::string_view stability_text(design::StabilityBasis stability_basis);
 
 /// The members of the JSON report; docs/montecarlo.schema.json is made of it.
 void describe(io::Visitor& v, const MonteCarloSection& section);

@@ -35,16 +35,16 @@ std::string per_cent(const EstimatedNumber& estimate) {
 }
 
 // Of the quantiles, those that have a column.
-bool is_shown(double share) {
-  return share >= 0.05 && share != 0.25 && share != 0.75;
+bool is_shown(double fraction) {
+  return fraction >= 0.05 && fraction != 0.25 && fraction != 0.75;
 }
 
 void add_distribution(Rows& rows, const std::string& name, const DistributionSummary& summary,
                       double unit, int decimals) {
   std::vector<std::string> row{name, with_interval(summary.mean, unit, decimals),
                                fixed(summary.standard_deviation.value / unit, decimals)};
-  for (const auto& [share, value] : summary.quantiles) {
-    if (is_shown(share)) row.push_back(with_interval(value, unit, decimals));
+  for (const auto& [fraction, value] : summary.quantiles) {
+    if (is_shown(fraction)) row.push_back(with_interval(value, unit, decimals));
   }
   row.push_back(fixed(summary.largest / unit, decimals));
   rows.push_back(std::move(row));
@@ -62,8 +62,8 @@ void add_losses(Rows& rows, const std::string& name, const DistributionSummary& 
   const bool holds = summary.largest <= largest_parabola_loss;
   std::vector<std::string> row{name, loss_with_interval(summary.mean),
                                holds ? fixed(summary.standard_deviation.value, 4) : "-"};
-  for (const auto& [share, value] : summary.quantiles) {
-    if (is_shown(share)) row.push_back(loss_with_interval(value));
+  for (const auto& [fraction, value] : summary.quantiles) {
+    if (is_shown(fraction)) row.push_back(loss_with_interval(value));
   }
   row.push_back(loss_text(summary.largest));
   rows.push_back(std::move(row));
@@ -78,7 +78,7 @@ bool has_losses_beyond(const MonteCarloSection& section) {
 
 Document distributions_part(const MonteCarloSection& section) {
   Rows rows{{"", "mean", "sd", "5 %", "50 %", "95 %", "99 %", "largest"}};
-  add_distribution(rows, "boresight rms, mdeg", section.beam_rms, millidegree, 4);
+  add_distribution(rows, "boresight rms, mdeg", section.boresight_rms, millidegree, 4);
   for (const auto& [band, loss, climate_loss] : section.losses) {
     add_losses(rows, fmt::format("loss {}, dB", band.name), loss);
   }
@@ -91,8 +91,8 @@ Document distributions_part(const MonteCarloSection& section) {
     }
   }
   if (section.retuned) {
-    add_distribution(rows, "rms re-tuned, mdeg", section.retuned->beam_rms, millidegree, 4);
-    add_distribution(rows, "cost of fixed gains, %", section.retuned->price, 0.01, 2);
+    add_distribution(rows, "rms re-tuned, mdeg", section.retuned->boresight_rms, millidegree, 4);
+    add_distribution(rows, "cost of fixed gains, %", section.retuned->fixed_gain_cost, 0.01, 2);
   }
   Document text = heading("Distribution over the stable plants");
   text += essential(table(rows, "l"));
@@ -122,16 +122,16 @@ Document probabilities_part(const MonteCarloSection& section) {
                                 budget.rms / millidegree),
                     per_cent(met)});
   }
-  for (const auto& [goal, broken] : section.goals_broken) {
+  for (const auto& [goal, broken] : section.constraints_violated) {
     rows.push_back({fmt::format("constraint violated: {}", goal), per_cent(broken)});
   }
-  rows.push_back({"all constraints met", per_cent(section.all_goals_met)});
+  rows.push_back({"all constraints met", per_cent(section.all_constraints_met)});
   Document text = heading("Probabilities");
   text += essential(table(rows, "l"));
   text += wrapped(
       fmt::format("{} plants, 95 % Clopper-Pearson intervals. A plant that is not stable meets no "
                   "budget. Budgets: {}. Violations: stable plants beyond 1.0001 times the limit.",
-                  section.plants, judged_by(section.effect)),
+                  section.plants, evaluated_by(section.effect)),
       "  ");
   return text;
 }
@@ -149,19 +149,19 @@ Document stability_part(const MonteCarloSection& section) {
 }
 
 Document plants_part(const MonteCarloSection& section, const std::vector<NotablePlant>& plants,
-                     std::size_t most) {
+                     std::size_t maximum) {
   Rows rows{{"plant"}};
   for (const auto input : section.inputs) rows[0].emplace_back(to_string(input));
   for (const auto* name : {"rms mdeg", "Ms rate", "Ms valve", "Ms pos.", "effort rad/s"}) {
     rows[0].emplace_back(name);
   }
   for (const auto& plant : plants) {
-    if (rows.size() > most) break;
+    if (rows.size() > maximum) break;
     std::vector<std::string> row{fmt::format("{}", plant.index)};
     for (const auto input : section.inputs) row.push_back(fmt::format("{:.4f}", plant.draw[input]));
-    row.push_back(fixed(plant.outcome.beam_rms / millidegree, 4));
+    row.push_back(fixed(plant.outcome.boresight_rms / millidegree, 4));
     for (const double peak : plant.outcome.sensitivity_peaks) row.push_back(fixed(peak, 3));
-    row.push_back(fixed(plant.outcome.valve_effort, 3));
+    row.push_back(fixed(plant.outcome.control_effort, 3));
     rows.push_back(std::move(row));
   }
   return table(rows, "r");
@@ -179,10 +179,10 @@ Document document_of(const MonteCarloSection& section) {
   }
   text += lead(decision(section));
   text += heading("Controller and plants");
-  text += wrapped(fmt::format("{}: {}.", section.structure, section.law_source), "  ");
+  text += wrapped(fmt::format("{}: {}.", section.structure, section.controller_source), "  ");
   Rows gains{{"gain", "value"}};
   for (std::size_t i = 0; i < section.gains.size(); ++i) {
-    gains.push_back({section.law.structure.gains()[i].name, section.gains[i]});
+    gains.push_back({section.controller.structure.gains()[i].name, section.gains[i]});
   }
   text += essential(table(gains, "ll"));
   std::vector<std::string_view> names;
@@ -194,12 +194,12 @@ Document document_of(const MonteCarloSection& section) {
   text += probabilities_part(section);
   text += stability_part(section);
   if (!section.unstable_plants.empty()) {
-    constexpr std::size_t most = 10;
+    constexpr std::size_t maximum = 10;
     text += heading("Plants that are not stable");
-    text += plants_part(section, section.unstable_plants, most);
-    if (section.unstable + section.undecided > most) {
+    text += plants_part(section, section.unstable_plants, maximum);
+    if (section.unstable + section.undecided > maximum) {
       text +=
-          wrapped(fmt::format("The first {} of {}; --json lists {}, --csv all.", most,
+          wrapped(fmt::format("The first {} of {}; --json lists {}, --csv all.", maximum,
                               section.unstable + section.undecided, section.unstable_plants.size()),
                   "  ");
     }

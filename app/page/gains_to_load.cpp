@@ -25,20 +25,20 @@ Document gains_table(const std::string& title, const control::LoopStructure& str
 }
 
 Document of_study(const design::TuningStudy& study, const io::GainUnits& units) {
-  const TunedLaw* recommended = design::recommended_law(study);
+  const TunedController* recommended = design::recommended_tuned_controller(study);
   if (recommended == nullptr) return {};
-  const auto& law = recommended->design.tuning.law;
-  return gains_table("Gains to load: " + name_and_purpose(*recommended), law.structure,
-                     units.texts(law));
+  const auto& controller = recommended->design.tuning.controller;
+  return gains_table("Gains to load: " + name_and_purpose(*recommended), controller.structure,
+                     units.texts(controller));
 }
 
 Document of_redesign(const TuningSection& section) {
   if (!section.design.usable()) return {};
-  const auto& law = section.design.tuning.law;
+  const auto& controller = section.design.tuning.controller;
   const bool fit = section.fitness == design::Fitness::fit;
   return gains_table(fmt::format("{}: {}, {}", fit ? "Gains to load" : "Gains, not to be loaded",
                                  section.name, to_string(section.tuned_for)),
-                     law.structure, section.gain_units.texts(law));
+                     controller.structure, section.gain_units.texts(controller));
 }
 
 // Of the proposal to choose; where no samples were drawn, of the antenna as it is.
@@ -49,9 +49,10 @@ Document of_evaluation(const EvaluateSection& section) {
   const Candidate& candidate = section.candidates[place];
   if (!candidate.feasible()) return {};
   return gains_table(
-      fmt::format("Gains to load: {}, {}", candidate.laws[*candidate.chosen].structure,
+      fmt::format("Gains to load: {}, {}", candidate.controllers[*candidate.chosen].structure,
                   candidate.path.empty() ? "the antenna as it is" : candidate.name),
-      candidate.chosen_law()->design.tuning.law.structure, candidate.gains.at(*candidate.chosen));
+      candidate.chosen_controller()->design.tuning.controller.structure,
+      candidate.gains.at(*candidate.chosen));
 }
 
 }  // namespace

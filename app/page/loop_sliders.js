@@ -65,7 +65,7 @@
       if (limit.gain_margin_dB !== null && gain < limit.gain_margin_dB - 1e-5) found.push(`gain margin ${gain.toFixed(2)} dB below ${limit.gain_margin_dB.toFixed(2)}, ${where}`);
       if (limit.phase_margin_deg !== null && loop.phase_deg < limit.phase_margin_deg - 1e-4) found.push(`phase margin ${loop.phase_deg.toFixed(1)} deg below ${limit.phase_margin_deg.toFixed(1)}, ${where}`);
     });
-    const effort = data.limits.valve_effort_rad_per_s;
+    const effort = data.limits.control_effort_rad_per_s;
     if (rms.effort > effort * (1 + 1e-5)) found.push(`control effort ${rms.effort.toFixed(3)} rad/s above ${effort}`);
     return found;
   };

@@ -36,7 +36,7 @@ std::optional<design::AdjustableLoop> adjustable_loop_of(const Report& report) {
   if (report.tuning) return design::adjustable_loop(*report.tuning);
   if (!report.tuned) return std::nullopt;
   const auto* shown =
-      design::shown_law(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
+      design::shown_controller(*report.tuned, report.time_domain ? &*report.time_domain : nullptr);
   return shown != nullptr ? design::adjustable_loop(*report.tuned, *shown) : std::nullopt;
 }
 

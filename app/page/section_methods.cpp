@@ -63,11 +63,11 @@ constexpr std::array entries = std::to_array<Entry>({
      {"least boresight rms under constraints, on exact frequency responses with gradients; "
       "verified by eigenvalues and Lyapunov equations",
       "design/tuning/tuner.hpp"}},
-    {"Gains, SI", {"the tuned controller's parameters", "control/controllers/control_law.hpp"}},
+    {"Gains, SI", {"the tuned controller's parameters", "control/controllers/controller.hpp"}},
     // Also "Gains, before and after", where there are present ones.
     {"Gains",
      {"the tuned controller's parameters in the case's units",
-      "control/controllers/control_law.hpp"}},
+      "control/controllers/controller.hpp"}},
     {"Active constraints",
      {"shadow prices of the active constraints, from the optimum's first-order conditions",
       "design/tuning/active_multipliers.hpp"}},

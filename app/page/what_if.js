@@ -37,12 +37,12 @@
     const answer = { values: axes.map(({ value }) => value), state: 2, rms: 0, between: corners.length > 1 };
     for (const { at, weight } of corners) {
       const entry = place(structure, at);
-      const rms = table.beam_rms_mdeg[entry];
+      const rms = table.boresight_rms_mdeg[entry];
       answer.state = Math.min(answer.state, rms === null ? 0 : table.states_1[entry]);
       if (rms !== null) answer.rms += weight * Math.log(rms);
     }
     // A single entry is shown as the table has it.
-    answer.rms = answer.state === 0 ? null : answer.between ? Math.exp(answer.rms) : table.beam_rms_mdeg[place(structure, corners[0].at)];
+    answer.rms = answer.state === 0 ? null : answer.between ? Math.exp(answer.rms) : table.boresight_rms_mdeg[place(structure, corners[0].at)];
     return answer;
   };
 

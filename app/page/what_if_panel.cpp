@@ -50,7 +50,8 @@ std::string what_if_panel(std::string_view what_if_json) {
       "the logarithm of the rms is interpolated in disks, leakage, friction slope and log wind "
       "speed. A verdict is the worst of the surrounding entries. The friction slope at the "
       "tracking rate is {:g} N m s/rad. Grey: the other structures.</p>\n",
-      table.at("start").at("wind_speed_m_per_s").get<double>(), table.at("beam_rms_mdeg").size(),
+      table.at("start").at("wind_speed_m_per_s").get<double>(),
+      table.at("boresight_rms_mdeg").size(),
       table.at("friction_slope_at_tracking_rate_N_m_s_per_rad").get<double>());
   return html +
          fmt::format("<script type=\"application/json\" class=\"data\">{}</script>\n</div>\n",

@@ -95,14 +95,14 @@ void conclude_identification(const IdentificationSection& section,
                              const identification::InertiaMethod& y) {
     return x.reflected_inertia.value < y.reflected_inertia.value;
   };
-  const auto [least, most] = std::minmax_element(methods.begin(), methods.end(), by_inertia);
-  const double ratio = least->motor_to_load_ratio.value;
+  const auto [minimum, maximum] = std::minmax_element(methods.begin(), methods.end(), by_inertia);
+  const double ratio = minimum->motor_to_load_ratio.value;
   std::string text = fmt::format(
       "The methods put the reflected inertia between {:.3f} kg.m2 ({}) and {:.3f} ({}), and the "
       "motor-to-load ratio between {} and {}{}.",
-      least->reflected_inertia.value, least->name, most->reflected_inertia.value, most->name,
-      ratio_text(most->motor_to_load_ratio.value), ratio_text(ratio),
-      rigid_resonance_remark(resonance, *least, *most));
+      minimum->reflected_inertia.value, minimum->name, maximum->reflected_inertia.value,
+      maximum->name, ratio_text(maximum->motor_to_load_ratio.value), ratio_text(ratio),
+      rigid_resonance_remark(resonance, *minimum, *maximum));
   if (ratio > 2.0 && std::isfinite(ratio)) {
     // dR/R = -(1 + R) dJ/J
     text += fmt::format(
@@ -138,8 +138,9 @@ std::vector<std::string> conclude(const Report& report) {
   if (report.matching) conclude_matching(report, *report.matching, sentences);
   if (report.tuning) {
     const auto& effects = report.tuning->input_effects;
-    std::string first = measure_first(effects, report.tuning->design.beam_rms, report.time_domain,
-                                      is_superseded(report.superseded, "friction_curve."));
+    std::string first =
+        measure_first(effects, report.tuning->design.boresight_rms, report.time_domain,
+                      is_superseded(report.superseded, "friction_curve."));
     if (!first.empty()) sentences.push_back(std::move(first));
   }
   return sentences;

@@ -37,7 +37,7 @@ void identify_sensors(const io::Case& antenna, const StudyOptions& options,
   const auto input = [](const io::Quantity& quantity) {
     return numerics::UncertainInput{quantity.key, quantity.value, quantity.standard_uncertainty};
   };
-  const numerics::PropagationOptions draws{20000, options.seed};
+  const numerics::PropagationOptions random_samples{20000, options.seed};
   if (antenna.tachometer) {
     const io::TachometerEntry& tachometer = *antenna.tachometer;
     section.tachometer_scale =
@@ -47,7 +47,7 @@ void identify_sensors(const io::Case& antenna, const StudyOptions& options,
               [turns = tachometer.motor_teeth.value / tachometer.tachometer_teeth.value](Point x) {
                 return identification::tachometer_scale(x[0], x[1], turns);
               }}},
-            draws)
+            random_samples)
             .front();
   }
   const io::FrictionTestsEntry& tests = *antenna.friction_tests;
@@ -58,7 +58,7 @@ void identify_sensors(const io::Case& antenna, const StudyOptions& options,
           [](Point x) { return identification::friction_and_offset(x[0], x[1]).coulomb; }},
          {"offset torque, slow ramp",
           [](Point x) { return identification::friction_and_offset(x[0], x[1]).offset; }}},
-        draws);
+        random_samples);
     section.slow_ramp_coulomb = results[0];
     section.slow_ramp_offset = results[1];
   }
@@ -161,8 +161,8 @@ IdentificationSection identify(const io::Case& antenna, const StudyOptions& opti
   }
   const auto estimates = independent_estimates(methods);
   if (estimates.size() > 1) {
-    section.reconciled =
-        identification::reconcile(estimates, motor_inertia(antenna, antenna.motor->flywheel_disks));
+    section.combined =
+        identification::combine(estimates, motor_inertia(antenna, antenna.motor->flywheel_disks));
   }
   identify_sensors(antenna, options, section);
   return section;
@@ -186,7 +186,7 @@ PlantSection describe_plant(const io::Case& antenna) {
   section.motors_held = antenna.structure->motors_held;
   section.hydraulic = plant::hydraulic_mode(section.modes);
   section.supply_torque = io::supply_torque(antenna);
-  section.torque_for_wind = io::torque_for_wind(antenna);
+  section.available_wind_torque = io::available_wind_torque(antenna);
   const auto problem = make_problem(antenna);
   section.mean_wind_torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / section.gear_ratio;

@@ -16,10 +16,10 @@ namespace boresight::app {
 namespace {
 
 std::string mode_text(const io::StructureEntry& structure, const io::MovableNumber& number) {
-  if (!number.share_of_mode) return "";
+  if (!number.fraction_of_mode) return "";
   return fmt::format(
       "the mode of {:.3g} Hz{}",
-      io::structure_specification(structure).modes.at(*number.share_of_mode).frequency,
+      io::structure_specification(structure).modes.at(*number.fraction_of_mode).frequency,
       structure.motors_held ? " with the bull gear locked" : "");
 }
 
@@ -27,10 +27,10 @@ std::string range_text(const InputEffect& effect) {
   const auto mdeg = [](double rms) {
     return std::isfinite(rms) ? fmt::format("{:.3f}", rms / millidegree) : std::string("unstable");
   };
-  const double share = 100.0 * effect.moved_by / std::abs(effect.quantity.value);
+  const double fraction = 100.0 * effect.moved_by / std::abs(effect.quantity.value);
   const std::string over =
       effect.range ? fmt::format("{:.3g} to {:.3g}", effect.range->first, effect.range->second)
-                   : fmt::format("+-{:.3g} %", share);
+                   : fmt::format("+-{:.3g} %", fraction);
   return fmt::format("{}{}{} ({} to {} mdeg over {})", effect.quantity.key,
                      effect.mode.empty() ? "" : " of ", effect.mode, mdeg(effect.low_rms),
                      mdeg(effect.high_rms), over);
@@ -47,9 +47,10 @@ double telling_friction(const std::optional<TimeDomainSection>& time_domain, dou
   return 0.0;
 }
 
-std::vector<InputEffect> input_effects(const io::Case& antenna, const control::ControlLaw& law,
-                                       const design::HardGoals& goals, double rms, std::size_t most,
-                                       unsigned threads) {
+std::vector<InputEffect> input_effects(const io::Case& antenna,
+                                       const control::Controller& controller,
+                                       const design::Constraints& goals, double rms,
+                                       std::size_t maximum, unsigned threads) {
   const auto numbers = movable_numbers(antenna);
   std::vector<design::MovedNumber> moved_numbers;
   for (const auto& number : numbers) {
@@ -59,7 +60,8 @@ std::vector<InputEffect> input_effects(const io::Case& antenna, const control::C
     moved_numbers.push_back({to(false), to(true)});
   }
   std::vector<InputEffect> effects;
-  for (const auto& effect : number_effects(moved_numbers, law, goals, rms, most, threads)) {
+  for (const auto& effect :
+       number_effects(moved_numbers, controller, goals, rms, maximum, threads)) {
     const io::MovableNumber& number = numbers[effect.number];
     effects.push_back({number, effect, mode_text(*antenna.structure, number)});
   }
@@ -69,10 +71,10 @@ std::vector<InputEffect> input_effects(const io::Case& antenna, const control::C
 std::string measure_first(const std::vector<InputEffect>& effects, double rms,
                           const std::optional<TimeDomainSection>& time_domain,
                           bool friction_measured) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t maximum = 3;
   std::vector<std::string> named;
   for (const auto& effect : effects) {
-    if (named.size() == most || effect.change(rms) < negligible_change) break;
+    if (named.size() == maximum || effect.change(rms) < negligible_change) break;
     named.push_back(range_text(effect));
   }
   std::vector<std::string> sentences;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/design/studies/number_effects.hpp>
 #include <boresight/io/case/case_declaration.hpp>
@@ -20,9 +20,10 @@ struct InputEffect : io::MovableNumber, design::NumberEffect {
 };
 
 /// io::movable_numbers of the case by design::number_effects.
-std::vector<InputEffect> input_effects(const io::Case& antenna, const control::ControlLaw& law,
-                                       const design::HardGoals& goals, double rms, std::size_t most,
-                                       unsigned threads);
+std::vector<InputEffect> input_effects(const io::Case& antenna,
+                                       const control::Controller& controller,
+                                       const design::Constraints& goals, double rms,
+                                       std::size_t maximum, unsigned threads);
 
 /// What friction alone adds to the simulated rms (rad), where that is a telling_change of `rms`,
 /// the linear one; 0 elsewhere.

@@ -17,7 +17,7 @@ namespace {
 constexpr double worth_flywheels = 0.05;
 
 const design::Design& least_of(const MatchingSeries& series) {
-  return *std::ranges::min_element(series.designs, {}, &design::Design::beam_rms);
+  return *std::ranges::min_element(series.designs, {}, &design::Design::boresight_rms);
 }
 
 // What the rows between the ends of the study are.
@@ -27,7 +27,7 @@ std::string range_of(const MatchingSection& section) {
 }
 
 // What the one-to-one rule is worth along the first series.
-std::string judge_unit_ratio(const MatchingSection& section, std::size_t unit) {
+std::string evaluate_unit_ratio(const MatchingSection& section, std::size_t unit) {
   const MatchingSeries& series = section.series.front();
   const design::Design& best = least_of(series);
   const auto at = static_cast<std::size_t>(&best - series.designs.data());
@@ -36,7 +36,7 @@ std::string judge_unit_ratio(const MatchingSection& section, std::size_t unit) {
       "With {}, ratio 1 ({:.1f} disks) gives {:.4f} mdeg; the minimum is {:.4f} at {} (R = "
       "{:.2f}).",
       control::to_string(series.structure), section.rows[unit].disks,
-      series.designs[unit].beam_rms / millidegree, best.beam_rms / millidegree,
+      series.designs[unit].boresight_rms / millidegree, best.boresight_rms / millidegree,
       section.rows[at].label, ratio);
   const double span = MatchingVerdict::span(series);
   if (span < negligible_change) {
@@ -95,17 +95,19 @@ std::vector<std::size_t> MatchingVerdict::ends() const {
 
 std::size_t MatchingVerdict::better_end() const {
   const auto rows = ends();
-  return *std::ranges::min_element(
-      rows, {}, [&](std::size_t row) { return section_.series.front().designs[row].beam_rms; });
+  return *std::ranges::min_element(rows, {}, [&](std::size_t row) {
+    return section_.series.front().designs[row].boresight_rms;
+  });
 }
 
 double MatchingVerdict::change(const MatchingSeries& series, std::size_t row) const {
-  return series.designs[row].beam_rms / series.designs[built_].beam_rms - 1.0;
+  return series.designs[row].boresight_rms / series.designs[built_].boresight_rms - 1.0;
 }
 
 double MatchingVerdict::span(const MatchingSeries& series) {
-  const auto& largest = *std::ranges::max_element(series.designs, {}, &design::Design::beam_rms);
-  return largest.beam_rms / least_of(series).beam_rms - 1.0;
+  const auto& largest =
+      *std::ranges::max_element(series.designs, {}, &design::Design::boresight_rms);
+  return largest.boresight_rms / least_of(series).boresight_rms - 1.0;
 }
 
 double MatchingVerdict::largest_span() const {
@@ -143,23 +145,23 @@ std::string friction_text(const MatchingSeries& series) {
 std::string what_matters_more(const Report& report) {
   Influences influences;
   if (report.tuning && !report.tuning->wind_alternatives.empty()) {
-    const auto [least, most] =
+    const auto [minimum, maximum] =
         std::ranges::minmax(report.tuning->wind_alternatives, {},
-                            [](const auto& alternative) { return alternative.beam_rms; });
-    influences.add(most.beam_rms / least.beam_rms - 1.0, "the wind model");
+                            [](const auto& alternative) { return alternative.boresight_rms; });
+    influences.add(maximum.boresight_rms / minimum.boresight_rms - 1.0, "the wind model");
   }
-  for (const auto& choice : report.choices) {
-    const auto& reference = report.choices.front().design;
+  for (const auto& choice : report.interpretations) {
+    const auto& reference = report.interpretations.front().design;
     if (!choice.design || !reference || !choice.design->usable() || !reference->usable()) continue;
     if (choice.missed_resonance()) continue;
-    influences.add(std::abs(choice.design->beam_rms / reference->beam_rms - 1.0),
+    influences.add(std::abs(choice.design->boresight_rms / reference->boresight_rms - 1.0),
                    fmt::format("'{}'", choice.name));
   }
   if (report.matching && report.matching->rows.size() > 1) {
     const MatchingVerdict verdict(*report.matching);
     const auto& first = report.matching->series.front();
     const auto rms = [&](const MatchingSeries& series) {
-      return series.designs[verdict.built()].beam_rms;
+      return series.designs[verdict.built()].boresight_rms;
     };
     for (const auto& series : report.matching->series) {
       if (series.viscous_friction != first.viscous_friction || verdict.unusable() > 0) continue;
@@ -212,7 +214,7 @@ void conclude_matching(const Report& report, const MatchingSection& section,
   }
   std::string text;
   for (std::size_t i = 0; i < section.rows.size(); ++i) {
-    if (section.rows[i].label == "ratio 1") text = judge_unit_ratio(section, i);
+    if (section.rows[i].label == "ratio 1") text = evaluate_unit_ratio(section, i);
   }
   const MatchingSeries* other = verdict.other_friction();
   if (other != nullptr && verdict.friction_decides() &&

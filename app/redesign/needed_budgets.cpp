@@ -17,7 +17,7 @@ std::string budget_text(const design::PointingBudget& budget) {
 }
 
 double reached_wind_speed(const TuningSection& section, const BudgetResult& budget) {
-  return std::min(budget.wind_speed_limit, section.supply_wind_speed);
+  return std::min(budget.wind_speed_limit, section.torque_limited_wind_speed);
 }
 
 }  // namespace boresight::app

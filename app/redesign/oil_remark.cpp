@@ -11,8 +11,8 @@ std::string oil_remark(const plant::PlantMode& mode, const plant::PlantMode& mod
       " Only {:.0f} % of that mode's elastic energy is in the oil, {:.0f} % in the gearbox spring "
       "and the rest in the structure. The dominant hydraulic mode is at {:.3g} Hz, damping ratio "
       "{:.3g}, with {:.0f} % in the oil.",
-      100.0 * mode.oil_share, 100.0 * mode.gear_share, mode_of_oil.frequency,
-      mode_of_oil.damping_ratio, 100.0 * mode_of_oil.oil_share);
+      100.0 * mode.oil_fraction, 100.0 * mode.gear_fraction, mode_of_oil.frequency,
+      mode_of_oil.damping_ratio, 100.0 * mode_of_oil.oil_fraction);
 }
 
 }  // namespace boresight::app

@@ -64,10 +64,10 @@ std::string unread_resonance(const std::optional<io::ResonanceVerdict>& verdict)
 }
 
 std::string rigid_resonance_remark(const std::optional<io::ResonanceVerdict>& verdict,
-                                   const identification::InertiaMethod& least,
-                                   const identification::InertiaMethod& most) {
+                                   const identification::InertiaMethod& minimum,
+                                   const identification::InertiaMethod& maximum) {
   constexpr auto resonance = identification::MethodKind::resonance;
-  const bool of_rigid = least.kind == resonance || most.kind == resonance;
+  const bool of_rigid = minimum.kind == resonance || maximum.kind == resonance;
   if (!of_rigid || !verdict || verdict->contradicts()) return "";
   return "; the resonance method assumes a rigid antenna, and the flexible one does not contradict "
          "the masses";

@@ -28,7 +28,7 @@ std::string unread_resonance(const std::optional<io::ResonanceVerdict>& verdict)
 /// resonance's figure is of a rigid antenna, where it is one of them and the measured frequency
 /// does not contradict the flexible antenna. Else empty.
 std::string rigid_resonance_remark(const std::optional<io::ResonanceVerdict>& verdict,
-                                   const identification::InertiaMethod& least,
-                                   const identification::InertiaMethod& most);
+                                   const identification::InertiaMethod& minimum,
+                                   const identification::InertiaMethod& maximum);
 
 }  // namespace boresight::app

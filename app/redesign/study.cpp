@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/app/redesign/choices.hpp>
+#include <boresight/app/redesign/interpretations.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -59,9 +59,9 @@ TuningSection section_of(const io::Case& antenna, design::RecommendedDesign desi
   section.demand_assumption = io::demand_assumption(antenna);
   section.gain_units = io::GainUnits(antenna);
   if (section.design.tuning.status != design::TuningStatus::unstable) {
-    constexpr std::size_t most_effects = 10;
-    section.input_effects = input_effects(antenna, section.design.tuning.law, section.goals,
-                                          section.design.beam_rms, most_effects, threads);
+    constexpr std::size_t max_effects = 10;
+    section.input_effects = input_effects(antenna, section.design.tuning.controller, section.goals,
+                                          section.design.boresight_rms, max_effects, threads);
   }
   return section;
 }
@@ -70,9 +70,9 @@ TuningSection section_of(const io::Case& antenna, design::RecommendedDesign desi
 
 void redesign(const io::DesignedAntenna& designed, const StudyOptions& options, Report& report) {
   const io::Case& antenna = designed.antenna;
-  std::vector<PlantChoice> choices = plant_choices(antenna);
+  std::vector<PlantInterpretation> interpretations = plant_interpretations(antenna);
   design::RedesignTask task;
-  for (const auto& choice : choices) {
+  for (const auto& choice : interpretations) {
     if (choice.antenna) task.alternatives.push_back({choice.result.name, *choice.antenna});
   }
   task.disks = matched_disks(antenna);
@@ -84,13 +84,13 @@ void redesign(const io::DesignedAntenna& designed, const StudyOptions& options, 
 
   report.tuning = section_of(antenna, std::move(study.recommended), options.threads);
   auto tuned = study.alternatives.begin();
-  for (auto& choice : choices) {
+  for (auto& choice : interpretations) {
     if (choice.antenna) {
       choice.result.design = std::move(tuned->design);
       choice.result.speed_limits = std::move(tuned->speed_limits);
       ++tuned;
     }
-    report.choices.push_back(std::move(choice.result));
+    report.interpretations.push_back(std::move(choice.result));
   }
   report.matching = std::move(study.flywheels);
   report.time_domain = section_of(antenna, std::move(study.time_domain));

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <boresight/app/redesign/choice_verdicts.hpp>
+#include <boresight/app/redesign/interpretation_verdicts.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/tuning_verdict.hpp>
 #include <boresight/app/report/assumed_demand.hpp>
@@ -28,7 +28,7 @@ bool holds_in_wind(const TimeDomainSection& section) {
 }
 
 // What the verdict on a budget rests on.
-std::string judged_by(const std::optional<TimeDomainSection>& time_domain) {
+std::string evaluated_by(const std::optional<TimeDomainSection>& time_domain) {
   if (!time_domain) return ", by the linear plant";
   if (!holds_in_wind(*time_domain)) {
     return fmt::format(
@@ -46,37 +46,38 @@ std::string judged_by(const std::optional<TimeDomainSection>& time_domain) {
 }
 
 // What the gains of the case do on its plant.
-std::string present_text(const TuningSection& section, const TuningSection::PresentLaw& law) {
-  if (law.design.tuning.status == design::TuningStatus::unstable) {
-    return unstable_present_gains(law.structure);
+std::string present_text(const TuningSection& section,
+                         const TuningSection::PresentController& controller) {
+  if (controller.design.tuning.status == design::TuningStatus::unstable) {
+    return unstable_present_gains(controller.structure);
   }
   std::string text = fmt::format(
       "{} {:.3f} mdeg rms in {:.3g} m/s{}",
-      law.retuned ? fmt::format("The case states no present gains. {} has",
-                                present_label(law.structure, law.retuned))
-                  : fmt::format("The present gains of {} have", law.structure),
-      law.design.beam_rms / millidegree, section.design_speed,
-      law.design.verification.passed
+      controller.retuned ? fmt::format("The case states no present gains. {} has",
+                                       present_label(controller.structure, controller.retuned))
+                         : fmt::format("The present gains of {} have", controller.structure),
+      controller.design.boresight_rms / millidegree, section.design_speed,
+      controller.design.verification.passed
           ? ""
-          : fmt::format(" and violate a constraint ({})", law.design.verification.failure));
+          : fmt::format(" and violate a constraint ({})", controller.design.verification.failure));
   if (section.design.usable()) {
-    text += fmt::format("; the tuned {} changes that by {:+.1f} %",
-                        control::to_string(section.structure),
-                        100.0 * (section.design.beam_rms / law.design.beam_rms - 1.0));
+    text += fmt::format(
+        "; the tuned {} changes that by {:+.1f} %", control::to_string(section.structure),
+        100.0 * (section.design.boresight_rms / controller.design.boresight_rms - 1.0));
   }
   return text + ".";
 }
 
 bool keeps_goals_on_all(const TuningSection& section) {
   return !section.ensemble ||
-         section.ensemble->within_goals == static_cast<int>(section.ensemble->members.size());
+         section.ensemble->within_constraints == static_cast<int>(section.ensemble->members.size());
 }
 
 // The ensemble members on which the controller meets the constraints.
 std::string robustness_text(const TuningSection& section) {
   if (!section.ensemble) return "";
   const auto plants = static_cast<int>(section.ensemble->members.size());
-  const int within = section.ensemble->within_goals;
+  const int within = section.ensemble->within_constraints;
   if (keeps_goals_on_all(section)) {
     return fmt::format("With these gains all {} perturbed plant models meet the constraints.",
                        plants);
@@ -111,7 +112,7 @@ std::string needs_on_plants(const TuningSection& section, bool short_of_all) {
 
 // Where flexure beyond the encoder dominates the error.
 std::string unseen_text(const TuningSection& section) {
-  if (!(section.encoder_held_rms >= 0.9 * section.design.beam_rms)) return "";
+  if (!(section.flexure_rms >= 0.9 * section.design.boresight_rms)) return "";
   return "Nearly all of the error is structural flexure beyond the encoder: stiffer loops, other "
          "motors or flywheels hardly lower it. A stiffer structure, less wind, or compensation of "
          "the flexure (structures with +C, LQG) does, if friction allows.";
@@ -124,12 +125,12 @@ std::string bound_text(const TuningSection& section) {
   std::string text = fmt::format(
       "Gains at their search limit: {}. Widen it with [[tuning.bound]] or in a [[loop]].",
       fmt::join(names, ", "));
-  const SearchedLaw law{section.structure.name(), &section.design.tuning,
-                        control::sample_time_of(section.problem.delay)};
-  for (const auto& sentence : corners_beyond_sampling(law)) text += " " + sentence;
+  const SearchedController controller{section.structure.name(), &section.design.tuning,
+                                      control::sample_time_of(section.problem.delay)};
+  for (const auto& sentence : corners_beyond_sampling(controller)) text += " " + sentence;
   if (section.trade) {
-    text += " " + trade_in_words(*section.trade, section.gain_units, law.name,
-                                 section.design.beam_rms, 0);
+    text += " " + trade_in_words(*section.trade, section.gain_units, controller.name,
+                                 section.design.boresight_rms, 0);
   }
   return text;
 }
@@ -139,7 +140,7 @@ std::vector<std::string_view> models(const TuningSection& section, std::size_t b
   std::vector<std::string_view> names;
   for (const auto& one : section.wind_alternatives) {
     if (budget >= one.speed_limits.size()) continue;
-    const double reached = std::min(one.speed_limits[budget], section.supply_wind_speed);
+    const double reached = std::min(one.speed_limits[budget], section.torque_limited_wind_speed);
     if (meets_need(section.budgets[budget].budget, reached) == met) {
       names.push_back(plant::to_string(one.model));
     }
@@ -157,14 +158,14 @@ std::string wind_model_text(const TuningSection& section) {
                             budget_text(section.budgets[i].budget), fmt::join(meeting, ", "),
                             fmt::join(missing, ", "));
   }
-  const double own = section.design.beam_rms;
+  const double own = section.design.boresight_rms;
   std::string others;
   bool apart = false;
   for (const auto& one : section.wind_alternatives) {
     if (one.model == section.wind_model) continue;
-    apart = apart || std::abs(one.beam_rms / own - 1.0) > telling_change;
+    apart = apart || std::abs(one.boresight_rms / own - 1.0) > telling_change;
     others += fmt::format("{}{:.3f} mdeg with {}", others.empty() ? "" : " and ",
-                          one.beam_rms / millidegree, plant::to_string(one.model));
+                          one.boresight_rms / millidegree, plant::to_string(one.model));
   }
   if (verdicts.empty() && !apart) return "";
   return fmt::format(
@@ -191,15 +192,15 @@ std::string met_text(const TuningSection& section, const BudgetResult& budget) {
   const double reached = reached_wind_speed(section, budget);
   if (!(reached > 0.0)) return "is met in no wind";
   const std::string mast = dish_and_mast(section.wind_mast, reached);
-  const std::string share = climate_text(section.climate, reached);
-  if (!std::isfinite(reached)) return "is met up to the 60 m/s studied" + share;
+  const std::string fraction = climate_text(section.climate, reached);
+  if (!std::isfinite(reached)) return "is met up to the 60 m/s studied" + fraction;
   if (reached < budget.wind_speed_limit) {
     return fmt::format(
         "would be met up to the {:.1f} m/s{} at which the mean wind takes all supply torque that "
         "friction and offset leave{}",
-        reached, mast, share);
+        reached, mast, fraction);
   }
-  return fmt::format("is met up to {:.1f} m/s{}{}", reached, mast, share);
+  return fmt::format("is met up to {:.1f} m/s{}{}", reached, mast, fraction);
 }
 
 std::vector<std::string> unmet_needs(const TuningSection& section,
@@ -213,8 +214,8 @@ std::vector<std::string> unmet_needs(const TuningSection& section,
         "NOT MET: {} is required up to {:.3g} m/s{}; as built, with {} ({}), it {}{}.{}",
         budget_text(budget), *budget.wind_speed,
         dish_and_mast(section.wind_mast, *budget.wind_speed), control::to_string(section.structure),
-        to_string(section.tuned_for), met_text(section, result), judged_by(time_domain),
-        meets_need(budget, section.supply_wind_speed)
+        to_string(section.tuned_for), met_text(section, result), evaluated_by(time_domain),
+        meets_need(budget, section.torque_limited_wind_speed)
             ? ""
             : " No loop structure changes that: the drive lacks torque."));
   }
@@ -232,7 +233,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   const auto add = [&](std::string text) {
     if (!text.empty()) sentences.push_back(std::move(text));
   };
-  for (const auto& law : section.present) add(present_text(section, law));
+  for (const auto& controller : section.present) add(present_text(section, controller));
   const auto& design = section.design;
   if (design.tuning.status == design::TuningStatus::unstable) {
     add(fmt::format("No {} controller found stabilises this antenna.",
@@ -242,7 +243,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   if (design.tuning.status != design::TuningStatus::optimal) {
     add(fmt::format(
         "No {} controller meets the constraints; the nearest exceeds a limit by {:.1f} %.{}",
-        control::to_string(section.structure), 100.0 * (design.tuning.worst_goal_ratio - 1.0),
+        control::to_string(section.structure), 100.0 * (design.tuning.worst_constraint - 1.0),
         assumed_demand(design.tuning, section.demand_assumption)));
     return;
   }
@@ -257,11 +258,11 @@ void conclude_tuning(const Report& report, const TuningSection& section,
       "of wind, linear",
       control::to_string(section.structure), to_string(section.tuned_for),
       repeated ? "" : " (not repeated by most seeds: search further)",
-      design.beam_rms / millidegree, section.design_speed);
+      design.boresight_rms / millidegree, section.design_speed);
   for (const auto& budget : section.budgets) {
     text += fmt::format("; {} {}", budget_text(budget.budget), met_text(section, budget));
   }
-  if (!section.budgets.empty()) text += judged_by(report.time_domain);
+  if (!section.budgets.empty()) text += evaluated_by(report.time_domain);
   add(text + ".");
   if (!section.ties.empty()) {
     add(fmt::format("A tie with it, within {:.0f} % or what the same winds leave open: {}.",
@@ -274,19 +275,19 @@ void conclude_tuning(const Report& report, const TuningSection& section,
 
   const auto by_rms = [](const TuningSection::WindAlternative& x,
                          const TuningSection::WindAlternative& y) {
-    return x.beam_rms < y.beam_rms;
+    return x.boresight_rms < y.boresight_rms;
   };
-  const auto [least, most] = std::minmax_element(section.wind_alternatives.begin(),
-                                                 section.wind_alternatives.end(), by_rms);
+  const auto [minimum, maximum] = std::minmax_element(section.wind_alternatives.begin(),
+                                                      section.wind_alternatives.end(), by_rms);
   add(fmt::format(
       "The rms uses the wind model {}: the same gains give {:.3f} mdeg with {} and {:.3f} with {}. "
       "Structural flexure beyond the encoder alone contributes {:.3f} mdeg.",
-      plant::to_string(section.wind_model), least->beam_rms / millidegree,
-      plant::to_string(least->model), most->beam_rms / millidegree, plant::to_string(most->model),
-      section.encoder_held_rms / millidegree));
-  add(other_choices_text(report, section));
+      plant::to_string(section.wind_model), minimum->boresight_rms / millidegree,
+      plant::to_string(minimum->model), maximum->boresight_rms / millidegree,
+      plant::to_string(maximum->model), section.flexure_rms / millidegree));
+  add(other_interpretations_text(report, section));
   add(other_attitudes_text(report, section));
-  add(guessed_shares_text(report, section));
+  add(guessed_fractions_text(report, section));
   add(unseen_text(section));
   add(bending_text(section));
   add(not_examined(report));
@@ -295,9 +296,9 @@ void conclude_tuning(const Report& report, const TuningSection& section,
 std::vector<std::string> decide_tuning(const Report& report, const TuningSection& section) {
   std::vector<std::string> sentences = unmet_needs(section, report.time_domain);
   const bool met = sentences.empty();
-  for (const auto& law : section.present) {
-    if (law.design.tuning.status == design::TuningStatus::unstable) {
-      sentences.push_back(unstable_present_gains(law.structure));
+  for (const auto& controller : section.present) {
+    if (controller.design.tuning.status == design::TuningStatus::unstable) {
+      sentences.push_back(unstable_present_gains(controller.structure));
     }
   }
   const std::string structure =
@@ -313,15 +314,16 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
         "The best controller found, {}, fails verification: do not use it.", structure));
     return sentences;
   }
-  const bool still = !report.time_domain || not_still(*report.time_domain).empty();
+  const bool limit_cycle_free =
+      !report.time_domain || limit_cycle_remark(*report.time_domain).empty();
   const bool holds = !report.time_domain || holds_in_wind(*report.time_domain);
   const bool robust = keeps_goals_on_all(section);
   std::string text =
       fmt::format("{} {}: {:.3f} mdeg rms per axis in {:.3g} m/s of wind",
-                  met && robust && holds && still && sentences.empty()
+                  met && robust && holds && limit_cycle_free && sentences.empty()
                       ? "Run the drive as built on"
                       : "The best controller found for the drive as built is",
-                  structure, section.design.beam_rms / millidegree, section.design_speed);
+                  structure, section.design.boresight_rms / millidegree, section.design_speed);
   if (report.time_domain) {
     text += holds ? fmt::format(" on the linear plant ({:.3f} simulated{})",
                                 report.time_domain->own().simulated_rms() / millidegree,
@@ -331,7 +333,7 @@ std::vector<std::string> decide_tuning(const Report& report, const TuningSection
   if (!section.budgets.empty() && met) {
     const auto& budget = section.budgets.front();
     text += fmt::format("; {} {}{}", budget_text(budget.budget), met_text(section, budget),
-                        judged_by(report.time_domain));
+                        evaluated_by(report.time_domain));
   }
   sentences.push_back(text + ".");
   return sentences;
@@ -342,16 +344,16 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   std::vector<std::string> sentences;
   if (!keeps_goals_on_all(section)) sentences.push_back(robustness_text(section));
   sentences.push_back(needs_on_plants(section, true));
-  if (report.time_domain) sentences.push_back(not_still(*report.time_domain));
+  if (report.time_domain) sentences.push_back(limit_cycle_remark(*report.time_domain));
   sentences.push_back(bound_text(section));
-  sentences.push_back(other_choices_text(report, section));
+  sentences.push_back(other_interpretations_text(report, section));
   sentences.push_back(other_attitudes_text(report, section));
-  sentences.push_back(guessed_shares_text(report, section));
+  sentences.push_back(guessed_fractions_text(report, section));
   sentences.push_back(wind_model_text(section));
   sentences.push_back(bending_text(section));
   sentences.push_back(unseen_text(section));
   if (report.time_domain) {
-    sentences.push_back(slew_out_of_reach(*report.time_domain));
+    sentences.push_back(slew_not_achievable(*report.time_domain));
     sentences.push_back(assumed_stroke(*report.time_domain));
     sentences.push_back(report.time_domain->friction_doubt);
   }
@@ -361,7 +363,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
         "Motor inertias are compared with linear loops tuned for the nominal plant only: "
         "`boresight evaluate` compares them with robust controllers on the nonlinear antenna.");
   }
-  sentences.push_back(measure_first(section.input_effects, section.design.beam_rms,
+  sentences.push_back(measure_first(section.input_effects, section.design.boresight_rms,
                                     report.time_domain,
                                     is_superseded(report.superseded, "friction_curve.")));
   std::erase(sentences, std::string());

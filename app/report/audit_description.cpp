@@ -15,17 +15,17 @@ void describe_form(io::Visitor& v, const design::DepartingForm& form) {
   v.text("would_be_text", form.would_be_text, "What would follow, with as many digits.");
   v.number("would_be", form.would_be, as_named, "What would follow.");
   v.number("tolerance", form.tolerance, as_named,
-           "Printed rounding of this number and of all it comes from.", {.least = 0.0});
+           "Printed rounding of this number and of all it comes from.", {.minimum = 0.0});
   v.number("relative_error", form.relative_error(), io::key_units::ratio,
            "Printed over what would follow, less 1.");
 }
 
-void describe_consequence(io::Visitor& v, const design::Consequence& consequence) {
-  v.text("id", consequence.id, "The result.");
-  v.text("unit", consequence.unit, "SI unit of its numbers.");
-  v.number("as_printed", consequence.as_printed, as_named, "With the number as printed.");
-  v.number("as_corrected", consequence.as_corrected, as_named, "With what would follow.");
-  v.number("relative_change", consequence.relative_change(), io::key_units::ratio,
+void describe_derived_quantity(io::Visitor& v, const design::DerivedQuantity& derived_quantity) {
+  v.text("id", derived_quantity.id, "The result.");
+  v.text("unit", derived_quantity.unit, "SI unit of its numbers.");
+  v.number("as_printed", derived_quantity.as_printed, as_named, "With the number as printed.");
+  v.number("as_corrected", derived_quantity.as_corrected, as_named, "With what would follow.");
+  v.number("relative_change", derived_quantity.relative_change(), io::key_units::ratio,
            "As printed over as corrected, less 1.");
 }
 
@@ -40,13 +40,14 @@ void describe_finding(io::Visitor& v, const design::Finding& finding) {
   v.text("unit", finding.unit, "SI unit of the forms' numbers.");
   v.text("source", finding.source, "Where it is printed.");
   v.list("forms", finding.forms, "Each printed form that departs.",
-         [&](const design::DepartingForm& form) { describe_form(v, form); }, {.least = 1});
+         [&](const design::DepartingForm& form) { describe_form(v, form); }, {.minimum = 1});
   v.flag("within_parents_rounding", finding.within_parents_rounding,
          "The rounding of what it is computed from could hide it.");
   v.texts("explanations", finding.explanations, "What would make it follow.");
   v.texts("evidence", finding.evidence, "What speaks for one column.");
-  v.list("consequences", finding.consequences, "Headline results that it moves, most first.",
-         [&](const design::Consequence& one) { describe_consequence(v, one); });
+  v.list("derived_quantities", finding.derived_quantities,
+         "Headline results that it moves, most first.",
+         [&](const design::DerivedQuantity& one) { describe_derived_quantity(v, one); });
 }
 
 void describe_implausible(io::Visitor& v, const Implausibility& one) {
@@ -69,7 +70,7 @@ void describe_implausible(io::Visitor& v, const Implausibility& one) {
           "inertia against the dish",
           "flywheel",
           "structural predictions",
-          "structural shares",
+          "structural fractions",
           "motors held",
           "gear stiffness",
           "ensemble range"},

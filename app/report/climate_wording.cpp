@@ -16,7 +16,7 @@ std::string climate_text(const std::vector<design::ClimatePart>& climate, double
 
 std::string percent_of_time(const std::vector<design::ClimatePart>& climate, double speed) {
   if (climate.empty() || std::isnan(speed)) return "-";
-  const double percent = 100.0 * design::share_of_time(climate, speed);
+  const double percent = 100.0 * design::fraction_of_time(climate, speed);
   // Neither all nor nothing that is not.
   if (percent > 99.5 && percent < 100.0) return "over 99 %";
   if (percent > 0.0 && percent < 0.5) return "under 1 %";

@@ -71,12 +71,12 @@ void describe_renamed_keys(io::Visitor& v) {
          });
 }
 
-void describe_share_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
-                            double speed, std::string_view meaning) {
+void describe_fraction_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
+                               double speed, std::string_view meaning) {
   const bool known = !climate.empty() && !std::isnan(speed);
-  v.number("share_of_time",
-           known ? std::optional(design::share_of_time(climate, speed)) : std::nullopt,
-           io::key_units::ratio, meaning, {.least = 0.0, .most = 1.0});
+  v.number("fraction_of_time",
+           known ? std::optional(design::fraction_of_time(climate, speed)) : std::nullopt,
+           io::key_units::ratio, meaning, {.minimum = 0.0, .maximum = 1.0});
 }
 
 }  // namespace boresight::app

@@ -35,9 +35,9 @@ void describe_superseded(io::Visitor& v, const std::vector<io::SupersededInput>&
 void describe_assumed(io::Visitor& v, const std::vector<io::Quantity>& assumed);
 /// "renamed_keys", of every report: io::renamed_keys.
 void describe_renamed_keys(io::Visitor& v);
-/// "share_of_time": fraction of the climate's time up to a speed (m/s); null without a climate or
-/// if the speed is not a number.
-void describe_share_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
-                            double speed, std::string_view meaning);
+/// "fraction_of_time": fraction of the climate's time up to a speed (m/s); null without a climate
+/// or if the speed is not a number.
+void describe_fraction_of_time(io::Visitor& v, const std::vector<design::ClimatePart>& climate,
+                               double speed, std::string_view meaning);
 
 }  // namespace boresight::app

@@ -44,7 +44,7 @@ std::vector<std::string> telling_inputs(const TuningSection& section) {
   std::vector<std::string> keys;
   for (const auto& effect : section.input_effects) {
     if (effect.quantity.basis != io::Basis::assumed) continue;
-    if (effect.change(section.design.beam_rms) >= negligible_change) {
+    if (effect.change(section.design.boresight_rms) >= negligible_change) {
       keys.push_back(effect.quantity.key);
     }
   }
@@ -56,19 +56,19 @@ std::string dependence(const Report& report) {
     return ", and enter the identification";
   }
   if (!report.tuning) return "; `boresight redesign` ranks them by their effect on the rms";
-  constexpr std::size_t most = 3;
+  constexpr std::size_t maximum = 3;
   std::vector<std::string> keys = telling_inputs(*report.tuning);
   const std::size_t count = keys.size();
-  keys.resize(std::min(most, count));
+  keys.resize(std::min(maximum, count));
   if (count == 0) {
     return fmt::format("; none moves the rms by {:.0f} % or more", 100.0 * negligible_change);
   }
   // Only the largest effects are kept.
   const auto& last = report.tuning->input_effects.back();
-  const bool more = last.change(report.tuning->design.beam_rms) >= negligible_change;
+  const bool more = last.change(report.tuning->design.boresight_rms) >= negligible_change;
   return fmt::format("; {}{} of them move{} the rms by {:.0f} % or more, {}{}",
                      more ? "at least " : "", count, count == 1 ? "s" : "",
-                     100.0 * negligible_change, count > most ? "first " : "",
+                     100.0 * negligible_change, count > maximum ? "first " : "",
                      fmt::join(keys, ", "));
 }
 
@@ -90,9 +90,9 @@ Sentences audit_decision(const AuditReport& report) {
   const design::Finding* largest = nullptr;
   double change = 0.0;
   for (const auto& finding : findings) {
-    for (const auto& consequence : finding.consequences) {
-      if (std::abs(consequence.relative_change()) <= change) continue;
-      change = std::abs(consequence.relative_change());
+    for (const auto& derived_quantity : finding.derived_quantities) {
+      if (std::abs(derived_quantity.relative_change()) <= change) continue;
+      change = std::abs(derived_quantity.relative_change());
       largest = &finding;
     }
   }
@@ -111,13 +111,13 @@ Sentences audit_decision(const AuditReport& report) {
 
 // "record 'a'", "records 'a', 'b' and 3 more".
 std::string names_of(const std::vector<std::string>& names, const std::string& what) {
-  constexpr std::size_t most = 2;
+  constexpr std::size_t maximum = 2;
   std::string text = fmt::format(
       "{}{} '{}'", what, names.size() == 1 ? "" : "s",
       fmt::join(std::vector(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(
-                                                               std::min(most, names.size()))),
+                                                               std::min(maximum, names.size()))),
                 "', '"));
-  if (names.size() > most) text += fmt::format(" and {} more", names.size() - most);
+  if (names.size() > maximum) text += fmt::format(" and {} more", names.size() - maximum);
   return text;
 }
 
@@ -129,7 +129,7 @@ std::string look_at(const io::ChannelSuspicion& one) {
 }
 
 Sentences campaign_decision(const io::CampaignSection& section) {
-  constexpr std::size_t most = 3;
+  constexpr std::size_t maximum = 3;
   Sentences sentences;
   if (const auto values = io::recommended(section)) {
     const auto& [inertia, ratio] = *values;
@@ -152,7 +152,7 @@ Sentences campaign_decision(const io::CampaignSection& section) {
     }
   }
   for (const auto& one : io::suspicions(section)) {
-    if (sentences.size() >= most) break;
+    if (sentences.size() >= maximum) break;
     sentences.push_back(look_at(one));
   }
   return sentences;
@@ -163,12 +163,13 @@ Sentences identify_decision(const Report& report) {
   if (report.campaign) return campaign_decision(*report.campaign);
   if (report.identification) {
     const auto& methods = report.identification->inertia.methods;
-    const auto [least, most] = std::ranges::minmax_element(
+    const auto [minimum, maximum] = std::ranges::minmax_element(
         methods, {}, [](const auto& m) { return m.reflected_inertia.value; });
-    if (least != methods.end()) {
+    if (minimum != methods.end()) {
       sentences.push_back(fmt::format(
           "The methods put the reflected inertia between {:.3f} kg m2 ({}) and {:.3f} ({}).",
-          least->reflected_inertia.value, least->name, most->reflected_inertia.value, most->name));
+          minimum->reflected_inertia.value, minimum->name, maximum->reflected_inertia.value,
+          maximum->name));
     }
   }
   return sentences;
@@ -179,10 +180,10 @@ Sentences model_decision(const PlantSection& plant) {
       "The hydraulic mode is at {:.3g} Hz, damping ratio {:.2g}; the motor-to-load inertia ratio "
       "is {:.2f}.",
       plant.hydraulic.frequency, plant.hydraulic.damping_ratio, plant.motor_to_load_ratio)};
-  if (plant.torque_for_wind > 0.0) {
+  if (plant.available_wind_torque > 0.0) {
     sentences.push_back(fmt::format(
         "The mean design wind takes {:.0f} % of the supply torque that friction and offset leave.",
-        100.0 * std::abs(plant.mean_wind_torque) / plant.torque_for_wind));
+        100.0 * std::abs(plant.mean_wind_torque) / plant.available_wind_torque));
   } else if (plant.supply_torque > 0.0) {
     sentences.emplace_back(
         "Friction at the tracking rate and offset take all supply torque: none is left for the "
@@ -242,9 +243,9 @@ std::vector<std::string> reservations(const Report& report) {
   if (report.command != "redesign") {
     if (auto text = resonance_warning(report.resonance); !text.empty()) sentences = {text};
     if (!report.tuned) return sentences;
-    const TunedLaw* law = recommended_law(*report.tuned);
-    if (law == nullptr) return sentences;
-    std::ranges::move(about_bounds(*report.tuned, report.tuned->gain_units, {law}),
+    const TunedController* controller = recommended_tuned_controller(*report.tuned);
+    if (controller == nullptr) return sentences;
+    std::ranges::move(about_bounds(*report.tuned, report.tuned->gain_units, {controller}),
                       std::back_inserter(sentences));
     return sentences;
   }

@@ -18,8 +18,8 @@ constexpr io::KeyUnit millidegree_as_kept{.suffix = "mdeg"};
 struct NamedOption {
   std::string name;
   design::OptionStatistics statistics;
-  double front_share = 0.0;
-  CandidateDraws draws;
+  double front_fraction = 0.0;
+  CandidateSamples random_samples;
 };
 
 struct NamedPair {
@@ -43,7 +43,7 @@ struct DecidingInput {
 void describe_chance(io::Visitor& v, std::string_view key, const design::Probability& chance,
                      std::string_view meaning) {
   v.group(key, meaning, [&] {
-    v.defined_as("probability", "A probability with its 95 % interval, for the number of draws.");
+    v.defined_as("probability", "A probability with its 95 % interval, for the number of samples.");
     v.number("value", chance.value, unit::ratio, "The probability.", known);
     v.number("lower_95", chance.lower, unit::ratio, "Lower end.", known);
     v.number("upper_95", chance.upper, unit::ratio, "Upper end.", known);
@@ -70,24 +70,25 @@ void describe_gain(io::Visitor& v, double gain, double error) {
 void describe_option(io::Visitor& v, const NamedOption& option) {
   const auto& statistics = option.statistics;
   v.text("name", option.name, "Its name.");
-  v.number("mean", statistics.mean, millidegree_as_kept, "Mean rms; null if unstable on a draw.");
+  v.number("mean", statistics.mean, millidegree_as_kept, "Mean rms; null if unstable on a sample.");
   v.number("standard_error", statistics.standard_error, millidegree_as_kept, "Of the mean.");
-  v.list("quantiles", statistics.quantiles, "Over the draws.",
+  v.list("quantiles", statistics.quantiles, "Over the samples.",
          [&](const design::Quantile& quantile) {
-           v.number("share", quantile.share, unit::ratio, "Share below.", known);
+           v.number("fraction", quantile.fraction, unit::ratio, "Fraction below.", known);
            v.number("value", quantile.value, millidegree_as_kept, "The quantile.");
            v.number("lower_95", quantile.lower, millidegree_as_kept, "Lower end of its interval.");
            v.number("upper_95", quantile.upper, millidegree_as_kept, "Upper end.");
          });
   describe_chance(v, "is_best", statistics.best, "That it has the least rms of all.");
   v.number("expected_regret", statistics.expected_regret, millidegree_as_kept,
-           "Mean loss against the best of each draw.");
+           "Mean loss against the best of each sample.");
   v.number("regret_error", statistics.regret_error, millidegree_as_kept, "Standard error of it.");
-  v.number("on_front_share", option.front_share, unit::ratio,
-           "Share of draws in which it is on the front of cost and rms; null without a cost.");
-  describe_chance(v, "outside_goals", option.draws.outside_goals,
-                  "Unstable, or a peak or the valve effort beyond its goal.");
-  describe_chance(v, "unstable", option.draws.unstable, "Of the loop.");
+  v.number("on_pareto_front_fraction", option.front_fraction, unit::ratio,
+           "Fraction of samples in which it is on the Pareto front of cost and rms; null without a "
+           "cost.");
+  describe_chance(v, "outside_goals", option.random_samples.outside_goals,
+                  "Unstable, or a peak or the control effort beyond its goal.");
+  describe_chance(v, "unstable", option.random_samples.unstable, "Of the loop.");
 }
 
 void describe_same_structure(io::Visitor& v, const SameStructure& one) {
@@ -95,25 +96,27 @@ void describe_same_structure(io::Visitor& v, const SameStructure& one) {
   describe_chance(v, "first_is_better", one.better, "Less rms, ties counted half.");
   describe_gain(v, one.mean_gain, one.gain_error);
   v.flag("first_usable", one.first_usable,
-         "Whether the first's law of that structure meets every goal, passes its verification and "
-         "does not hunt.");
+         "Whether the first's controller of that structure meets every goal, passes its "
+         "verification and "
+         "does not limit-cycle.");
   v.flag("second_usable", one.second_usable, "Same of the second.");
 }
 
 void describe_input(io::Visitor& v, const DecidingInput& input) {
   v.text("name", input.name, "Its name.");
   v.optional_group("tornado", input.tornado, "It alone moved.", [&](const design::TornadoBar& bar) {
-    v.number("at_5_percent", bar.at_low, millidegree_as_kept, "At its 5 % share.", known);
-    v.number("at_95_percent", bar.at_high, millidegree_as_kept, "At its 95 % share.", known);
+    v.number("at_5_percent", bar.at_low, millidegree_as_kept, "At its 5 % fraction.", known);
+    v.number("at_95_percent", bar.at_high, millidegree_as_kept, "At its 95 % fraction.", known);
     v.number("swing", bar.swing, millidegree_as_kept, "Largest less smallest.", known);
   });
   v.optional_group(
-      "sobol", input.sobol, "Shares of the variance.", [&](const numerics::InputIndices& indices) {
+      "sobol", input.sobol, "Fractions of the variance.",
+      [&](const numerics::InputIndices& indices) {
         describe_index(v, "first_order", indices.first_order, "What goes if it becomes known.");
         describe_index(v, "total", indices.total, "What stays if all others become known.");
       });
   v.optional_group(
-      "test_value", input.test,
+      "sample_information", input.test,
       "By how much knowing it lowers the expected rms, among those fit to be chosen.",
       [&](const design::InputValue& test) {
         v.number("fitted_gain", test.fitted.gain, millidegree_as_kept, "Biased high.");
@@ -153,7 +156,7 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
   };
   std::vector<NamedOption> options;
   for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
-    options.push_back({name(i), decision.statistics.options[i], decision.front_shares[i],
+    options.push_back({name(i), decision.statistics.options[i], decision.front_fractions[i],
                        decision.candidates[i]});
   }
   std::vector<NamedPair> pairs;
@@ -167,12 +170,12 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
   v.defined_as(
       "decision",
       "Probabilities, regrets and what they depend on, by samples with fixed gains. Losses are "
-      "beam rms in mdeg.");
-  v.count("draws", decision.draws, "How many.");
-  v.text("source", decision.source, "Of the draws.");
-  v.list("options", options, "Those with a stable law.",
+      "boresight rms in mdeg.");
+  v.count("samples", decision.random_samples, "How many.");
+  v.text("source", decision.source, "Of the samples.");
+  v.list("options", options, "Those with a stable controller.",
          [&](const NamedOption& option) { describe_option(v, option); });
-  v.list("pairs", pairs, "Every pair, on the same draws.", [&](const NamedPair& one) {
+  v.list("pairs", pairs, "Every pair, on the same samples.", [&](const NamedPair& one) {
     v.text("first", one.first, "Name.");
     v.text("second", one.second, "Name.");
     describe_chance(v, "first_is_better", one.pair.better, "Less rms, ties counted half.");
@@ -181,8 +184,8 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
     v.text("second_over_first", to_string(one.pair.second_over_first), "Dominance.");
   });
   v.list("pairs_by_structure", by_structure,
-         "Every pair of different antennas whose chosen laws differ in structure, with one "
-         "structure on both, over the same draws.",
+         "Every pair of different antennas whose chosen controllers differ in structure, with one "
+         "structure on both, over the same samples.",
          [&](const NamedStructures& one) {
            v.text("first", one.first, "Name.");
            v.text("second", one.second, "Name.");
@@ -194,8 +197,8 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
          {to_string(design::LossMeasure::mean), to_string(design::LossMeasure::quantile_95),
           to_string(design::LossMeasure::median)},
          "What the choice is made by: the mean rms; where each that is fit is unstable on some "
-         "draw, the rms that 95 % of the draws do not exceed, or the median.");
-  v.text("least_mean_rms", name(decision.best),
+         "sample, the rms that 95 % of the samples do not exceed, or the median.");
+  v.text("min_mean_rms", name(decision.best),
          "The candidate of the least rms by that, of those fit to be chosen if there are any.");
   std::vector<std::string> tied;
   for (std::size_t i = 0; i < decision.tied.size(); ++i) {
@@ -212,7 +215,7 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
   v.list("inputs", deciding_inputs(decision),
          "What is uncertain, and what it does to that difference.",
          [&](const DecidingInput& input) { describe_input(v, input); });
-  v.optional_group("knowing_everything",
+  v.optional_group("perfect_information",
                    decision.tests ? std::optional(decision.tests->perfect) : std::nullopt,
                    "By how much knowing all inputs lowers the expected rms, among those fit to be "
                    "chosen.",

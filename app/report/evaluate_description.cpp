@@ -12,7 +12,7 @@ namespace {
 
 namespace unit = io::key_units;
 
-constexpr io::NumberForm positive{.least = 0.0};
+constexpr io::NumberForm positive{.minimum = 0.0};
 constexpr io::NumberForm known{.finite = true};
 constexpr io::KeyUnit inertia_unit{.suffix = "kg_m2"};
 constexpr io::KeyUnit degree_per_second{.suffix = "deg_per_s", .divisor = unit::degree.divisor};
@@ -25,8 +25,8 @@ struct WrittenGain {
 };
 
 // A controller with its gains.
-struct WrittenLaw {
-  CandidateLaw law;
+struct WrittenController {
+  CandidateController controller;
   std::vector<std::string> gains;
 };
 
@@ -52,7 +52,7 @@ void describe_change(io::Visitor& v, const io::ChangeRow& change) {
   v.text_or_null("source", change.source, "Why.");
 }
 
-void describe_consequence(io::Visitor& v, const io::DerivedChange& one) {
+void describe_derived_quantity(io::Visitor& v, const io::DerivedChange& one) {
   v.text("quantity", one.quantity, "Which.");
   v.text("unit", one.unit, "Of before and after.");
   v.number("before", one.before, unit::ratio, "In that unit.");
@@ -60,44 +60,45 @@ void describe_consequence(io::Visitor& v, const io::DerivedChange& one) {
   v.text("follows_from", one.follows_from, "Equation or rule.");
 }
 
-void describe_law(io::Visitor& v, const WrittenLaw& written) {
-  const CandidateLaw& law = written.law;
+void describe_controller(io::Visitor& v, const WrittenController& written) {
+  const CandidateController& controller = written.controller;
   std::vector<WrittenGain> gains;
   for (std::size_t i = 0; i < written.gains.size(); ++i) {
-    const auto& gain = law.design.tuning.law.structure.gains().at(i);
+    const auto& gain = controller.design.tuning.controller.structure.gains().at(i);
     gains.push_back({gain.symbol, gain.name, written.gains[i]});
   }
-  v.text("structure", law.structure, "As asked for.");
-  v.flag("goals_met", law.goals_met,
-         "Every hard goal on the nominal plant and on each of the ensemble.");
+  v.text("structure", controller.structure, "As asked for.");
+  v.flag("constraints_met", controller.constraints_met,
+         "Every constraint on the nominal plant and on each of the ensemble.");
   v.number(
-      "ensemble_rms", law.member_rms, unit::millidegree,
+      "ensemble_rms", controller.member_rms, unit::millidegree,
       "Root of the mean square of the boresight rms over the ensemble, of linear loops; null if a "
       "plant is unstable.");
-  v.number("nonlinear_factor", law.nonlinear_factor(), unit::ratio,
+  v.number("simulated_to_linear_rms", controller.simulated_to_linear_rms(), unit::ratio,
            "Simulated rms (expected_rms) over the linear one; 1 without a run, null if one did not "
            "complete.",
            positive);
   v.number(
-      "compared_rms", law.compared_rms(), unit::millidegree,
-      "ensemble_rms times nonlinear_factor, with the rms of the limit cycle in quadrature "
+      "compared_rms", controller.compared_rms(), unit::millidegree,
+      "ensemble_rms times simulated_to_linear_rms, with the rms of the limit cycle in quadrature "
       "(amplitude over the root of 2): what controllers and proposals are compared by; null if "
       "one of them is.",
       positive);
-  v.number("limit_cycle_amplitude", law.effect().amplitude, unit::millidegree,
+  v.number("limit_cycle_amplitude", controller.effect().amplitude, unit::millidegree,
            "Half of peak to peak of the boresight, at rest or tracking; 0 without a run.", known);
-  v.object("expected_rms", law.expected,
+  v.object("expected_rms", controller.expected,
            "Simulated in several records of wind; null if that was not asked for.");
-  v.object("time_domain", law.time_domain,
-           "The law on the proposal's nonlinear antenna; null if that was not asked for.");
+  v.object("time_domain", controller.time_domain,
+           "The controller on the proposal's nonlinear antenna; null if that was not asked for.");
   v.list("gains_as_written", gains, "In the engineer's units.", [&](const WrittenGain& gain) {
     v.text("symbol", gain.symbol, "Its symbol.");
     v.text("name", gain.name, "Its name.");
     v.text("value", gain.value, "Number with unit.");
   });
-  v.group_if("design", law.stable(), "On the proposal's nominal plant; null without a stable law.",
-             [&] { describe(v, law.design); });
-  v.object("ensemble", law.ensemble, "Gains held; null without a stable law.");
+  v.group_if("design", controller.stable(),
+             "On the proposal's nominal plant; null without a stable controller.",
+             [&] { describe(v, controller.design); });
+  v.object("ensemble", controller.ensemble, "With fixed gains; null without a stable controller.");
 }
 
 void describe_slew(io::Visitor& v, const SlewFigures& slew) {
@@ -123,11 +124,11 @@ std::vector<BandLosses> band_losses(const EvaluateSection& section,
 std::vector<MetBudget> met_budgets(const EvaluateSection& section, const Candidate& candidate,
                                    const CandidateFigures& figures) {
   std::vector<MetBudget> budgets;
-  const CandidateLaw* law = candidate.chosen_law();
+  const CandidateController* controller = candidate.chosen_controller();
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     budgets.push_back({section.budgets[i], figures.speed_limits[i], std::nullopt});
-    if (law != nullptr && i < law->budgets_met.size()) {
-      budgets.back().plants_met = law->budgets_met[i];
+    if (controller != nullptr && i < controller->budgets_met.size()) {
+      budgets.back().plants_met = controller->budgets_met[i];
     }
   }
   return budgets;
@@ -135,7 +136,7 @@ std::vector<MetBudget> met_budgets(const EvaluateSection& section, const Candida
 
 void describe_figures(io::Visitor& v, const EvaluateSection& section, const Candidate& candidate,
                       const CandidateFigures& figures) {
-  v.number("climate_beam_rms", figures.climate_rms, unit::millidegree,
+  v.number("climate_boresight_rms", figures.climate_rms, unit::millidegree,
            "Over the site's winds; null if the case states no climate.");
   v.list("bands", band_losses(section, figures), "Losses.", [&](const BandLosses& band) {
     v.text("name", band.name, "Its name.");
@@ -167,7 +168,7 @@ void describe_figures(io::Visitor& v, const EvaluateSection& section, const Cand
            "The highest rate that the drive holds against friction and offset, the valve fully "
            "open, over the slew rate; null if the case states no stroke.");
   v.number(
-      "reversal_beam_error", candidate.reversal_error(), unit::millidegree,
+      "reversal_boresight_error", candidate.reversal_error(), unit::millidegree,
       "Largest boresight error after a velocity reversal at the tracking rate, on the nonlinear "
       "antenna; null where that did not run.");
   v.optional_group("slew", figures.slew,
@@ -178,10 +179,10 @@ void describe_figures(io::Visitor& v, const EvaluateSection& section, const Cand
 
 void describe_candidate(io::Visitor& v, const EvaluateSection& section,
                         const Candidate& candidate) {
-  const CandidateLaw* chosen = candidate.chosen_law();
-  std::vector<WrittenLaw> laws;
-  for (std::size_t i = 0; i < candidate.laws.size(); ++i) {
-    laws.push_back({candidate.laws[i], candidate.gains.at(i)});
+  const CandidateController* chosen = candidate.chosen_controller();
+  std::vector<WrittenController> controllers;
+  for (std::size_t i = 0; i < candidate.controllers.size(); ++i) {
+    controllers.push_back({candidate.controllers[i], candidate.gains.at(i)});
   }
   v.defined_as("candidate", "The antenna as it is (first) or as a proposal makes it.");
   v.text("name", candidate.name, "Its name.");
@@ -195,27 +196,28 @@ void describe_candidate(io::Visitor& v, const EvaluateSection& section,
   v.texts("risks", candidate.risks, "As the proposal says.");
   v.list("changes", candidate.changes, "Of the case's numbers.",
          [&](const io::ChangeRow& change) { describe_change(v, change); });
-  v.list("consequences", candidate.consequences,
+  v.list("derived_quantities", candidate.derived_quantities,
          "What follows from them, of quantities that the proposal does not name.",
-         [&](const io::DerivedChange& one) { describe_consequence(v, one); });
+         [&](const io::DerivedChange& one) { describe_derived_quantity(v, one); });
   v.number("reflected_inertia", candidate.reflected_inertia, inertia_unit, "All at the motors.",
            known);
   v.number("motor_inertia", candidate.motor_inertia, inertia_unit, "All motors.", known);
   v.number("motor_to_load_ratio", candidate.motor_to_load_ratio, unit::ratio,
            "Motors over gear train and antenna.");
   v.object("oil_mode", candidate.oil_mode,
-           "The plant's mode of the largest oil share, no loop closed.");
+           "The plant's mode of the largest oil fraction, no loop closed.");
   v.flag("feasible", candidate.feasible(),
-         "The chosen law meets every goal on every plant, passes its verification and, where the "
-         "case has a simulation, does not hunt beyond the tightest budget.");
+         "The chosen controller meets every goal on every plant, passes its verification and, "
+         "where the "
+         "case has a simulation, does not limit-cycle beyond the tightest budget.");
   v.text_or_null("chosen_structure", chosen != nullptr ? chosen->structure : "",
-                 "Of the law that stands for it; null without a stable one.");
-  v.list("laws", laws, "One a structure, tuned robustly on the proposal's plants.",
-         [&](const WrittenLaw& law) { describe_law(v, law); });
+                 "Of the controller that stands for it; null without a stable one.");
+  v.list("controllers", controllers, "One a structure, tuned robustly on the proposal's plants.",
+         [&](const WrittenController& controller) { describe_controller(v, controller); });
   v.optional_group(
       "figures", candidate.figures,
-      "What the chosen law and the drive do at the design's wind speed; null without "
-      "a stable law.",
+      "What the chosen controller and the drive do at the design's wind speed; null without "
+      "a stable controller.",
       [&](const CandidateFigures& figures) { describe_figures(v, section, candidate, figures); });
 }
 
@@ -224,7 +226,7 @@ void describe_candidate(io::Visitor& v, const EvaluateSection& section,
 void describe(io::Visitor& v, const EvaluateSection& section) {
   std::vector<std::string> front;
   for (const std::size_t i : section.front) front.push_back(section.candidates[i].name);
-  v.defined_as("evaluated", "Proposals, each re-tuned on the same draws of what is uncertain.");
+  v.defined_as("evaluated", "Proposals, each re-tuned on the same samples of what is uncertain.");
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean, of the design.", known);
   v.text("wind_model", plant::to_string(section.wind_model), "Its model.");
   v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
@@ -233,17 +235,19 @@ void describe(io::Visitor& v, const EvaluateSection& section) {
   v.flag("wind_climate_stated", section.climate, "The case states one.");
   v.word("rms_over", section.minimises_climate ? "climate" : "design_speed",
          {"design_speed", "climate"}, "What the tuning made least.");
-  v.word("compared_on", section.time_domain ? "nonlinear_antenna" : "linear_plant",
-         {"nonlinear_antenna", "linear_plant"},
-         "Whether laws and proposals are compared by simulated runs with friction, orifices, "
-         "backlash, limits and encoder steps, or by linear loops only.");
+  v.word(
+      "compared_on", section.time_domain ? "nonlinear_antenna" : "linear_plant",
+      {"nonlinear_antenna", "linear_plant"},
+      "Whether controllers and proposals are compared by simulated runs with friction, orifices, "
+      "backlash, limits and encoder steps, or by linear loops only.");
   v.text("currency", section.currency, "Of all costs; empty if no proposal states one.");
   v.text("ensemble_source", section.ensemble_source, "What its members are drawn from.");
   v.count("ensemble_members", section.ensemble_size, "How many.");
   v.count("starts", section.starts, "Of each search.");
   v.list("candidates", section.candidates, "The antenna as it is, then the proposals.",
          [&](const Candidate& candidate) { describe_candidate(v, section, candidate); });
-  v.texts("front", front, "Names on the front of cost and rms over the ensemble, in rising cost.");
+  v.texts("pareto_front", front,
+          "Names on the Pareto front of cost and rms over the ensemble, in rising cost.");
   v.optional_group(
       "decision", section.decision, "Null if interrupted before it.",
       [&](const DecisionSection& decision) { describe_decision(v, section, decision); });

@@ -16,7 +16,7 @@ using numerics::PropagatedResult;
 constexpr io::KeyUnit inertia_unit{.suffix = "kg_m2"};
 constexpr io::KeyUnit stiffness_unit{.suffix = "N_m_per_rad"};
 constexpr io::KeyUnit scale_unit{.suffix = "rad_per_s_V"};
-constexpr io::NumberForm positive{.least = 0.0};
+constexpr io::NumberForm positive{.minimum = 0.0};
 
 // Its keys name the unit.
 void describe_members(io::Visitor& v, const PropagatedResult& result, const io::KeyUnit& of) {
@@ -26,14 +26,14 @@ void describe_members(io::Visitor& v, const PropagatedResult& result, const io::
   v.number("value", result.value, of, "At the inputs' values.");
   v.number("standard_uncertainty", result.standard_uncertainty, of, "1 sigma, to first order.",
            positive);
-  v.number("lower_95", result.lower, of, "Lower end of the 95 % interval, by random draws.");
+  v.number("lower_95", result.lower, of, "Lower end of the 95 % interval, by random samples.");
   v.number("upper_95", result.upper, of, "Upper end; null where it has none.");
   v.list("contributions", result.contributions,
-         "Inputs by their share of the variance, largest first.", [&](const auto& contribution) {
+         "Inputs by their fraction of the variance, largest first.", [&](const auto& contribution) {
            v.defined_as("contribution", "One input's part in a variance.");
            v.text("input", contribution.input, "The input.");
-           v.number("variance_share", contribution.share, unit::ratio, "Its share, 0 to 1.",
-                    positive);
+           v.number("variance_fraction", contribution.fraction, unit::ratio,
+                    "Its fraction, 0 to 1.", positive);
          });
 }
 
@@ -71,9 +71,9 @@ void describe_method(io::Visitor& v, const PrintedMethod& one) {
   describe_propagated(v, "motor_to_load_ratio", method.motor_to_load_ratio, unit::ratio,
                       "All motors against the load; without meaning where the inertia is below "
                       "the motors'.");
-  v.number("draws_below_motor_inertia", method.motor_to_load_ratio.beyond_pole, unit::ratio,
-           "Share of the draws in which the inertia is below the motors' own.",
-           {.least = 0.0, .most = 1.0});
+  v.number("samples_below_motor_inertia", method.motor_to_load_ratio.beyond_pole, unit::ratio,
+           "Fraction of the samples in which the inertia is below the motors' own.",
+           {.minimum = 0.0, .maximum = 1.0});
   describe_propagated(v, "antenna_remainder", method.antenna_remainder, inertia_unit,
                       "What the method leaves for the antenna.");
   v.text_or_null("printed_reflected_inertia", one.printed.inertia,
@@ -82,8 +82,8 @@ void describe_method(io::Visitor& v, const PrintedMethod& one) {
                  "What the source prints, as text.");
 }
 
-void describe_reconciled(io::Visitor& v, const identification::ReconciledInertia& one) {
-  v.defined_as("reconciled", "Random-effects mean of the methods.");
+void describe_combined(io::Visitor& v, const identification::CombinedInertia& one) {
+  v.defined_as("combined", "Random-effects mean of the methods.");
   v.number("reflected_inertia", one.value, inertia_unit, "Best estimate.");
   v.number("standard_uncertainty", one.standard_uncertainty, inertia_unit, "1 sigma.", positive);
   v.number("lower_95", one.lower, inertia_unit, "Lower end of the 95 % interval.");
@@ -97,7 +97,7 @@ void describe_reconciled(io::Visitor& v, const identification::ReconciledInertia
   v.flag("contradictory", one.degrees_of_freedom > 0 && one.contradictory(),
          "Q is beyond what random scatter exceeds once in a thousand times: the mean stands for "
          "none of "
-         "the methods, and there is no reconciled inertia.");
+         "the methods, and there is no combined inertia.");
   v.number("motor_to_load_ratio", one.motor_to_load_ratio, unit::ratio, "At the estimate.");
   v.number("motor_to_load_ratio_lower_95", one.ratio_lower, unit::ratio, "Lower end.");
   v.number("motor_to_load_ratio_upper_95", one.ratio_upper, unit::ratio,
@@ -117,10 +117,10 @@ void describe(io::Visitor& v, const IdentificationSection& section) {
            {.above = 0.0, .finite = true});
   v.list("methods", methods,
          "Mass properties with each antenna inertia, hydraulic resonance, impulses.",
-         [&](const PrintedMethod& one) { describe_method(v, one); }, {.least = 1});
-  v.optional_group("reconciled", section.reconciled,
+         [&](const PrintedMethod& one) { describe_method(v, one); }, {.minimum = 1});
+  v.optional_group("combined", section.combined,
                    "One estimate from all methods; null with fewer than two.",
-                   [&](const auto& one) { describe_reconciled(v, one); });
+                   [&](const auto& one) { describe_combined(v, one); });
   describe_all(v, "load_rows", found.load_rows, inertia_unit,
                "Each assembly and each antenna inertia at the motor shaft.");
   describe_all(v, "line_bulk_modulus", found.line_bulk_modulus, unit::pascal,

@@ -7,7 +7,7 @@
 namespace boresight::app {
 
 /// The report as JSON (docs/report.schema.json): every key of a number with a unit ends in that
-/// unit ("beam_rms_mdeg"); infinite and undefined numbers are null.
+/// unit ("boresight_rms_mdeg"); infinite and undefined numbers are null.
 std::string to_json(const Report& report);
 
 }  // namespace boresight::app

@@ -10,11 +10,11 @@ void describe(io::Visitor& v, const LinearModels& models) {
   v.number("gear_ratio", models.gear_ratio, io::key_units::ratio,
            "Motor turns per turn of the antenna.", {.above = 0.0, .finite = true});
   v.object("plant", models.plant, "The linear plant.");
-  v.optional_members(models.loop, [&](const LawModels& loop) {
+  v.optional_members(models.loop, [&](const ControllerModels& loop) {
     v.text("controller_name", loop.description,
            "Of both controllers: structure and what it was tuned for.");
     v.number("dead_time", loop.dead_time, io::key_units::second,
-             "Of the loop around the continuous controller.", {.least = 0.0, .finite = true});
+             "Of the loop around the continuous controller.", {.minimum = 0.0, .finite = true});
     v.object("controller", loop.continuous, "The continuous controller.");
     v.object("sampled_controller", loop.sampled_controller,
              "The controller in the sampled form that the antenna's computer runs.");

@@ -40,7 +40,7 @@ void describe_point(io::Visitor& v, const MatchPoint& point) {
            "Of the lowest mode that moves the oil.", known);
   v.number("hydraulic_damping_ratio", point.hydraulic.damping_ratio, unit::ratio, "Of that mode.",
            known);
-  v.object("oil_mode", point.oil_mode, "The mode of the largest oil share.");
+  v.object("oil_mode", point.oil_mode, "The mode of the largest oil fraction.");
   v.number("acceleration", point.acceleration,
            {.suffix = "mdeg_per_s2", .divisor = unit::millidegree.divisor},
            "At the sky, at the slew rate: half of what the torque left beyond the valve's drop and "
@@ -59,14 +59,15 @@ void describe_time(io::Visitor& v, const MatchTimeDomain& run) {
   v.number("ensemble_rms", run.member_rms, unit::millidegree,
            "Root of the mean square over the ensemble with these motors, linear; null where "
            "expected_rms is.");
-  v.list("hunting", run.hunting, "At rest, then at the tracking rate.",
-         [&](const design::HuntingResult& one) { describe(v, one, io::LimitCycleDetail::study); });
+  v.list(
+      "limit_cycles", run.limit_cycles, "At rest, then at the tracking rate.",
+      [&](const design::LimitCycleResult& one) { describe(v, one, io::LimitCycleDetail::study); });
   v.optional_group("reversal", run.reversal, "A slow triangle of the tracking rate.",
                    [&](const design::ReversalResult& reversal) {
                      io::describe_status(v, reversal.status);
                      v.number("encoder_error", reversal.encoder_error, unit::millidegree,
                               "Largest after a reversal.");
-                     v.number("beam_error", reversal.beam_error, unit::millidegree,
+                     v.number("boresight_error", reversal.boresight_error, unit::millidegree,
                               "Boresight error, about its mean.");
                      v.number("encoder_error_without_friction",
                               reversal.encoder_error_without_friction, unit::millidegree,
@@ -75,24 +76,24 @@ void describe_time(io::Visitor& v, const MatchTimeDomain& run) {
 }
 
 // One law of a series at one point.
-struct PointLaw {
-  design::MatchedLaw law;
+struct PointController {
+  design::MatchedController controller;
   MatchValue value;
 };
 
 // A gain of a law.
-struct LawGain {
+struct ControllerGain {
   std::string name, symbol, unit;
   double value = 0.0;
 };
 
-void describe_gains(io::Visitor& v, const control::ControlLaw& law) {
-  std::vector<LawGain> gains;
-  for (std::size_t k = 0; k < law.gains.size(); ++k) {
-    const auto& gain = control::gain_descriptions(law.structure).at(k);
-    gains.push_back({gain.name, gain.symbol, gain.unit, law.gains[k]});
+void describe_gains(io::Visitor& v, const control::Controller& controller) {
+  std::vector<ControllerGain> gains;
+  for (std::size_t k = 0; k < controller.gains.size(); ++k) {
+    const auto& gain = control::gain_descriptions(controller.structure).at(k);
+    gains.push_back({gain.name, gain.symbol, gain.unit, controller.gains[k]});
   }
-  v.list("gains", gains, "Of the law.", [&](const LawGain& gain) {
+  v.list("gains", gains, "Of the controller.", [&](const ControllerGain& gain) {
     v.text("name", gain.name, "Its name.");
     v.text("symbol", gain.symbol, "Its symbol.");
     v.text("unit", gain.unit, "Of the value.");
@@ -100,19 +101,19 @@ void describe_gains(io::Visitor& v, const control::ControlLaw& law) {
   });
 }
 
-void describe_result(io::Visitor& v, const PointLaw& one) {
-  const design::MatchedLaw& law = one.law;
+void describe_result(io::Visitor& v, const PointController& one) {
+  const design::MatchedController& controller = one.controller;
   const MatchValue& value = one.value;
   std::vector<MatchMargins> margins;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     margins.push_back({control::loop_breaks.at(b), value.margins.at(b)});
   }
-  v.number("beam_rms", value.beam_rms, unit::millidegree, "At the sky, one axis.");
+  v.number("boresight_rms", value.boresight_rms, unit::millidegree, "At the sky, one axis.");
   v.number("wind_rms", value.wind_rms, unit::millidegree, "By wind.");
   v.number("noise_rms", value.noise_rms, unit::millidegree, "By sensor noise.");
-  v.number("worst_goal_ratio", law.worst_goal_ratio, unit::ratio,
+  v.number("worst_constraint", controller.worst_constraint, unit::ratio,
            "Largest quantity over limit, over all plants.");
-  v.number("valve_effort", value.valve_effort, unit::radian_per_second,
+  v.number("control_effort", value.control_effort, unit::radian_per_second,
            "Rms of the valve demand by noise.");
   v.number("gust_demand", value.gust_demand, unit::radian_per_second,
            "Valve demand: mean wind and crest factor times gusts.");
@@ -122,14 +123,14 @@ void describe_result(io::Visitor& v, const PointLaw& one) {
   v.number("acceleration_error", value.acceleration_error, {.suffix = "s2"},
            "Steady error per constant acceleration that is not fed forward.");
   v.list("margins", margins, "At each loop break.");
-  describe_gains(v, law.law);
-  v.list("active_goals", law.active_goals, "Goals met with less than 1e-4 to spare.",
-         [&](const design::LimitingGoal& goal) {
-           v.text("goal", design::describe(goal.goal), "Which, and at which frequency.");
+  describe_gains(v, controller.controller);
+  v.list("active_constraints", controller.active_constraints,
+         "Goals met with less than 1e-4 to spare.", [&](const design::ActiveConstraint& goal) {
+           v.text("constraint", design::describe(goal.goal), "Which, and at which frequency.");
            v.text_or_null("member", goal.member, "On which plant; null: the case's.");
          });
-  v.texts("gains_at_bound", law.gains_at_bound, "Names.");
-  v.texts("carried_members", law.carried_members, "Members that the search had to carry.");
+  v.texts("gains_at_bound", controller.gains_at_bound, "Names.");
+  v.texts("active_scenarios", controller.active_scenarios, "Members that the search had to carry.");
   v.flag("verified", value.verification.passed, "Confirmed apart from the tuner.");
   v.text_or_null("verification_failure", value.verification.failure, "Why not.");
   v.optional_group("time_domain", value.time_domain,
@@ -137,16 +138,19 @@ void describe_result(io::Visitor& v, const PointLaw& one) {
                    [&](const MatchTimeDomain& run) { describe_time(v, run); });
 }
 
-void describe_law(io::Visitor& v, const PointLaw& one) {
+void describe_controller(io::Visitor& v, const PointController& one) {
   static constexpr std::array<std::string_view, 3> status{"optimal", "infeasible", "unstable"};
-  const design::MatchedLaw& law = one.law;
-  v.word("status", law.searched ? status.at(static_cast<std::size_t>(law.status)) : "not run",
+  const design::MatchedController& controller = one.controller;
+  v.word("status",
+         controller.searched ? status.at(static_cast<std::size_t>(controller.status)) : "not run",
          {"optimal", "infeasible", "unstable", "not run"}, "What the tuning found.");
-  v.count("starts", law.starts, "Random starts.");
-  v.count("starts_at_optimum", law.starts_at_optimum, "That ended within 1 % of the best law.");
-  v.count("warm_starts", law.warm_starts, "From neighbours and structures that this one extends.");
-  v.group_if("result", law.status != design::TuningStatus::unstable,
-             "The law on the case's plant; null without a stable one.",
+  v.count("starts", controller.starts, "Random starts.");
+  v.count("starts_at_optimum", controller.starts_at_optimum,
+          "That ended within 1 % of the best controller.");
+  v.count("warm_starts", controller.warm_starts,
+          "From neighbours and structures that this one extends.");
+  v.group_if("result", controller.status != design::TuningStatus::unstable,
+             "The controller on the case's plant; null without a stable one.",
              [&] { describe_result(v, one); });
 }
 
@@ -169,28 +173,29 @@ void describe_smoothness(io::Visitor& v, const design::CurveSmoothness& smooth) 
 void describe_series(io::Visitor& v, const MatchSection& section, const MatchSeries& series) {
   v.text("structure", series.name, "As --structure takes it.");
   v.text("description", series.curve.structure.name(), "In words.");
-  v.optional_group(
-      "best", series.best, "The least rms; null if no law holds its goals.", [&](std::size_t best) {
-        const bool there = best < section.points.size();
-        const MatchPoint point = there ? section.points[best] : MatchPoint{};
-        v.number("flywheel_disks", point.disks, unit::ratio, "On each motor.", known);
-        v.number("motor_to_load_ratio", point.motor_to_load_ratio, unit::ratio, "R.", known);
-        v.number("beam_rms", there ? series.values[best].beam_rms : 0.0, unit::millidegree,
-                 "There.", known);
-        v.flag("at_end_of_range", series.best_at_end, "It may be less beyond.");
-        describe_range(v, "within_1_percent", series.within_1_percent,
-                       "Disks within 1 % of the least rms.");
-        describe_range(v, "within_5_percent", series.within_5_percent, "Within 5 %.");
-      });
+  v.optional_group("best", series.best, "The least rms; null if no controller holds its goals.",
+                   [&](std::size_t best) {
+                     const bool there = best < section.points.size();
+                     const MatchPoint point = there ? section.points[best] : MatchPoint{};
+                     v.number("flywheel_disks", point.disks, unit::ratio, "On each motor.", known);
+                     v.number("motor_to_load_ratio", point.motor_to_load_ratio, unit::ratio, "R.",
+                              known);
+                     v.number("boresight_rms", there ? series.values[best].boresight_rms : 0.0,
+                              unit::millidegree, "There.", known);
+                     v.flag("at_end_of_range", series.best_at_end, "It may be less beyond.");
+                     describe_range(v, "within_1_percent", series.within_1_percent,
+                                    "Disks within 1 % of the least rms.");
+                     describe_range(v, "within_5_percent", series.within_5_percent, "Within 5 %.");
+                   });
   describe_smoothness(v, series.smoothness);
-  std::vector<PointLaw> laws;
+  std::vector<PointController> controllers;
   if (!v.by_example()) {
     for (std::size_t i = 0; i < section.points.size(); ++i) {
-      laws.push_back({series.curve.laws[i], series.values[i]});
+      controllers.push_back({series.curve.controllers[i], series.values[i]});
     }
   }
-  v.list("laws", laws, "In the order of points.",
-         [&](const PointLaw& one) { describe_law(v, one); });
+  v.list("controllers", controllers, "In the order of points.",
+         [&](const PointController& one) { describe_controller(v, one); });
 }
 
 void describe_ranked(io::Visitor& v, const MatchSection& section, const design::RankedMotors& one) {
@@ -209,7 +214,7 @@ void describe_variants(io::Visitor& v, const MatchVariants& variants) {
   v.list("variants", variants.variants, "The first is the case's plant.",
          [&](const MatchVariant& variant) {
            v.text("name", name_of(variant), "What is not as the case has it.");
-           v.numbers("beam_rms", variant.rms, unit::millidegree, "At these disks.");
+           v.numbers("boresight_rms", variant.rms, unit::millidegree, "At these disks.");
            v.number("best_disks",
                     variant.best ? std::optional(variants.disks[*variant.best]) : std::nullopt,
                     unit::ratio, "Of the least rms.");
@@ -246,22 +251,22 @@ void describe_rule(io::Visitor& v, const MatchSection& section, const RuleVerdic
   v.number("flywheel_disks", rule.disks, unit::ratio, "Null: less inertia than the bare motors.");
   v.list("costs", costs, "What following it costs.", [&](const RuleCost& one) {
     v.text("structure", one.structure, "Which.");
-    v.number("rms_over_least", one.cost, unit::ratio, "Less 1.");
+    v.number("rms_over_min", one.cost, unit::ratio, "Less 1.");
   });
 }
 
 void describe_conditions(io::Visitor& v, const MatchSection& section) {
   v.text("wind_model", plant::to_string(section.wind_model), "Model of the wind torque.");
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean.", known);
-  v.text("soft_goal", design::to_string(section.soft_goal.kind), "Which rms is made least.");
+  v.text("objective", design::to_string(section.objective.kind), "Which rms is made least.");
   v.count("ensemble_members", section.members,
           "Plants on which every constraint is met; 0: the case's alone.");
-  v.count("starts", section.starts, "Random starts of each law.");
+  v.count("starts", section.starts, "Random starts of each controller.");
   v.count("rounds", section.rounds, "Of warm starts.");
   v.flag("settled", section.settled, "The last round gained nothing.");
-  v.count("evaluations", section.evaluations, "Of laws on plants.");
+  v.count("evaluations", section.evaluations, "Of controllers on plants.");
   v.number("tolerance", section.tolerance, unit::ratio,
-           "Relative, of the rms: laws closer than this count as the same.", known);
+           "Relative, of the rms: controllers closer than this count as the same.", known);
   v.number("slew_distance", section.slew_distance / unit::millidegree.divisor,
            {.suffix = "deg", .divisor = 1e3}, "Of slew_time.", known);
   v.number("slew_rate", section.slew_rate, unit::millidegree_per_second, "At the sky.", known);
@@ -274,10 +279,10 @@ void describe_conditions(io::Visitor& v, const MatchSection& section) {
 }
 
 void describe_recommended(io::Visitor& v, const design::TuningStudy& tuned) {
-  const design::TunedLaw* law = recommended_law(tuned);
-  const design::TunedLaw example;
-  const design::TunedLaw& row = law != nullptr ? *law : example;
-  v.group_if("recommended_as_built", law != nullptr,
+  const design::TunedController* controller = recommended_tuned_controller(tuned);
+  const design::TunedController example;
+  const design::TunedController& row = controller != nullptr ? *controller : example;
+  v.group_if("recommended_as_built", controller != nullptr,
              "The controller that tune recommends for the motors as built; null: none. Left out: "
              "interrupted.",
              [&] {
@@ -293,11 +298,12 @@ void describe_recommended(io::Visitor& v, const design::TuningStudy& tuned) {
 }  // namespace
 
 void describe(io::Visitor& v, const MatchMargins& cut) {
-  v.defined_as("match_margins", "Margins of a law on the case's plant, the loop cut at one place.");
+  v.defined_as("match_margins",
+               "Margins of a controller on the case's plant, the loop cut at one place.");
   io::describe_break(v, "break", cut.loop_break);
   describe(v, cut.margins);
   v.number("sensitivity_peak", cut.margins.sensitivity.magnitude, unit::ratio, "Largest |S|.",
-           {.least = 0.0});
+           {.minimum = 0.0});
 }
 
 void describe(io::Visitor& v, const MatchSection& section) {
@@ -318,7 +324,7 @@ void describe(io::Visitor& v, const MatchSection& section) {
   v.list("friction_thresholds", section.thresholds,
          "From which friction slope on the inertia matters no more.",
          [&](const FrictionThreshold& one) { describe_threshold(v, one); });
-  v.list("rules", section.rules, "Classic rules, judged.",
+  v.list("rules", section.rules, "Classic rules, evaluated.",
          [&](const RuleVerdict& rule) { describe_rule(v, section, rule); });
   v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
@@ -327,7 +333,8 @@ void describe(io::Visitor& v, const MatchSection& section) {
                      [&](const design::TuningStudy& tuned) { describe_recommended(v, tuned); });
   v.optional_members(section.what_if, [&](const design::WhatIfTable& table) {
     v.object("what_if", table,
-             "The study's robust laws, their gains held, on plants and in winds that they were not "
+             "The study's robust controllers, with fixed gains, on plants and in winds that they "
+             "were not "
              "tuned for; only with --report.");
   });
 }

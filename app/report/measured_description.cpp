@@ -42,14 +42,15 @@ std::string_view status_name(MeasuredTuningStatus status) {
   return "unstable";
 }
 
-void describe_share(io::Visitor& v, std::string_view key, const design::AssumedShare& share,
-                    std::string_view meaning) {
+void describe_fraction(io::Visitor& v, std::string_view key,
+                       const design::AssumedFraction& fraction, std::string_view meaning) {
   v.group(key, meaning, [&] {
-    v.number("below", share.below, unit::ratio, "Below the lowest usable frequency.");
-    v.number("encoder", share.encoder, unit::ratio, "Where only the encoder's angle is assumed.");
-    v.number("unresolved", share.unresolved, unit::ratio,
+    v.number("below", fraction.below, unit::ratio, "Below the lowest usable frequency.");
+    v.number("encoder", fraction.encoder, unit::ratio,
+             "Where only the encoder's angle is assumed.");
+    v.number("unresolved", fraction.unresolved, unit::ratio,
              "Where the points do not resolve the response.");
-    v.number("above", share.above, unit::ratio, "Above the highest usable frequency.");
+    v.number("above", fraction.above, unit::ratio, "Above the highest usable frequency.");
   });
 }
 
@@ -59,10 +60,10 @@ struct MeasuredGain {
   double value = 0.0;
 };
 
-void describe_gains(io::Visitor& v, const control::ControlLaw& law) {
+void describe_gains(io::Visitor& v, const control::Controller& controller) {
   std::vector<MeasuredGain> gains;
-  for (std::size_t k = 0; k < law.gains.size(); ++k) {
-    gains.push_back({control::gain_descriptions(law.structure).at(k), law.gains[k]});
+  for (std::size_t k = 0; k < controller.gains.size(); ++k) {
+    gains.push_back({control::gain_descriptions(controller.structure).at(k), controller.gains[k]});
   }
   v.list("gains", gains, "In the structure's order.", [&](const MeasuredGain& one) {
     v.text("name", one.gain.name, "Name.");
@@ -103,56 +104,57 @@ void describe_breaks(io::Visitor& v, const design::MeasuredVerification& check) 
   });
 }
 
-void describe_check(io::Visitor& v, const MeasuredLaw& law) {
-  const auto& check = law.tuning.verification;
+void describe_check(io::Visitor& v, const MeasuredController& controller) {
+  const auto& check = controller.tuning.verification;
   describe_breaks(v, check);
   v.flag("verified", check.passed, "On the measured points by other code than the tuner's.");
   v.text_or_null("verification_failure", check.failure, "Why not; null if it is.");
-  v.count("unstable_poles_rate_loop_alone", check.unstable[0], "By the winding of 1 + L.");
+  v.count("unstable_poles_rate_loop_alone", check.unstable[0], "By the encirclements of 1 + L.");
   v.count("unstable_poles", check.unstable[1], "The same with both loops closed.");
   v.number("largest_relative_error", check.largest_error, unit::ratio,
-           "Of 1 + L within the confidence; below 1 none changes its winding.");
+           "Of 1 + L within the confidence; below 1 none changes its encirclements.");
   v.number("loop_gain_at_highest_rate_loop_alone", check.gain_at_highest[0], unit::ratio,
            "|L| where the measurement ends.");
   v.number("loop_gain_at_highest", check.gain_at_highest[1], unit::ratio,
            "The same with both loops closed.");
-  v.flag("stable_on_case", law.stable_on_case,
+  v.flag("stable_on_case", controller.stable_on_case,
          "The same gains on the case's linear plant, by eigenvalues.");
-  v.numbers_if("sensitivity_peaks_on_case", law.stable_on_case, law.peaks_on_case, unit::ratio,
-               "Theirs there, by loop break; null if unstable.", {.finite = true});
+  v.numbers_if("sensitivity_peaks_on_case", controller.stable_on_case, controller.peaks_on_case,
+               unit::ratio, "Theirs there, by loop break; null if unstable.", {.finite = true});
 }
 
-void describe_law(io::Visitor& v, const MeasuredTuneSection& section, const MeasuredLaw& law) {
-  const auto& tuning = law.tuning;
+void describe_controller(io::Visitor& v, const MeasuredTuneSection& section,
+                         const MeasuredController& controller) {
+  const auto& tuning = controller.tuning;
   const io::KeyUnit sky{.suffix = "mdeg",
                         .multiplier = 1.0 / section.gear_ratio / unit::millidegree.divisor};
-  v.text("structure", law.structure, "As the user names it.");
+  v.text("structure", controller.structure, "As the user names it.");
   v.word("status", status_name(tuning.status), {"confident", "nominal", "infeasible", "unstable"},
          "Goals met within the confidence, by the measured response only, not met, or no stable "
-         "law.");
+         "controller.");
   v.members_if(tuning.status != MeasuredTuningStatus::unstable, [&] {
-    describe_gains(v, tuning.law);
+    describe_gains(v, tuning.controller);
     v.number("rms", tuning.rms, sky, "Of the encoder at the sky, one axis.");
     v.number("wind_rms", tuning.wind_rms, sky, "Its part by wind.");
     v.number("noise_rms", tuning.noise_rms, sky, "Its part by sensor noise.");
     v.number("nominal_rms", tuning.nominal_rms, sky,
-             "Of the best law for the measured response alone.");
-    v.number("valve_effort", tuning.valve_effort, unit::radian_per_second,
+             "Of the best controller for the measured response alone.");
+    v.number("control_effort", tuning.control_effort, unit::radian_per_second,
              "Rms of the noise-driven valve command.");
-    v.group("assumed_shares", "Shares of the variances that rest on frequencies not measured.",
-            [&] {
-              describe_share(v, "wind", tuning.wind_share, "Of the wind's variance.");
-              describe_share(v, "noise", tuning.noise_share, "Of the noise's.");
-              describe_share(v, "effort", tuning.effort_share, "Of the valve effort's.");
+    v.group("assumed_fractions",
+            "Fractions of the variances that rest on frequencies not measured.", [&] {
+              describe_fraction(v, "wind", tuning.wind_fraction, "Of the wind's variance.");
+              describe_fraction(v, "noise", tuning.noise_fraction, "Of the noise's.");
+              describe_fraction(v, "effort", tuning.effort_fraction, "Of the control effort's.");
             });
     v.number("rms_by_oil_stiffness", tuning.by_stiffness, unit::ratio,
-             "d ln rms/d ln K, gains held.");
+             "d ln rms/d ln K, with fixed gains.");
     v.number("rms_by_oil_loss_rate", tuning.by_loss_rate, unit::ratio,
-             "d ln rms/d ln lambda, gains held.");
+             "d ln rms/d ln lambda, with fixed gains.");
     v.number("confidence", tuning.confidence, unit::ratio, "Probability at each frequency.");
     v.number("confidence_radius", tuning.radius, unit::ratio, "The same in standard deviations.");
-    describe_check(v, law);
-    v.texts("active_goals", tuning.active_goals, "What limits the result.");
+    describe_check(v, controller);
+    v.texts("active_constraints", tuning.active_constraints, "What limits the result.");
     v.texts("gains_at_bound", tuning.gains_at_bound, "Gains at a bound of the search.");
     v.count("starts", tuning.starts, "Random starts.");
     v.count("starts_at_optimum", tuning.starts_at_optimum, "Within 1 % of the best.");
@@ -184,7 +186,7 @@ MeasuredRange range_of(const std::optional<control::MeasuredChannels>& channels)
           channels->highest_frequency(),
           static_cast<std::size_t>(channels->frequency().size()),
           channels->points_left_out(),
-          channels->resolved_share(),
+          channels->resolved_fraction(),
           channels->unresolved(),
           channels->encoder_assumed(),
           channels->low_end_inertia(),
@@ -196,7 +198,7 @@ void describe_range(io::Visitor& v, const MeasuredRange& range) {
   v.number("highest", range.highest, unit::hertz_of_radians, "Highest usable frequency.");
   v.count("frequencies", range.frequencies, "Usable ones.");
   v.count("frequencies_left_out", range.left_out, "For their coherence.");
-  v.number("resolved_share", range.resolved, unit::ratio, "Of the excited band, in ln f.");
+  v.number("resolved_fraction", range.resolved, unit::ratio, "Of the excited band, in ln f.");
   describe_bands(v, "unresolved", range.unresolved,
                  "Between usable frequencies that do not resolve the response.");
   describe_bands(v, "encoder_assumed", range.encoder_assumed,
@@ -229,13 +231,14 @@ void describe(io::Visitor& v, const MeasuredTuneSection& section) {
   v.number("oil_loss_rate", section.oil.loss_rate, unit::per_second, "lambda.");
   v.text("oil_source", section.oil_source, "Where both come from.");
   v.number("wind_speed", section.wind_speed, unit::metre_per_second, "Mean.");
-  v.numbers("sensitivity_peak_goals", section.goals.sensitivity_peak, unit::ratio,
+  v.numbers("sensitivity_peak_limits", section.goals.sensitivity_peak, unit::ratio,
             "Largest allowed, by loop break.", {.finite = true});
-  v.number("valve_effort_goal", section.goals.valve_effort, unit::radian_per_second,
+  v.number("control_effort_constraint", section.goals.control_effort, unit::radian_per_second,
            "Largest allowed.");
-  v.list("laws", section.laws, "A structure each, tuned on the measured response.",
-         [&](const MeasuredLaw& law) { describe_law(v, section, law); });
-  v.texts("notes", section.notes, "What is assumed and what is not judged.");
+  v.list(
+      "controllers", section.controllers, "A structure each, tuned on the measured response.",
+      [&](const MeasuredController& controller) { describe_controller(v, section, controller); });
+  v.texts("notes", section.notes, "What is assumed and what is not evaluated.");
 }
 
 }  // namespace boresight::app

@@ -8,7 +8,7 @@ namespace unit = io::key_units;
 
 constexpr io::NumberForm known{.finite = true};
 constexpr io::NumberForm positive{.above = 0.0, .finite = true};
-constexpr io::NumberForm not_negative{.least = 0.0, .finite = true};
+constexpr io::NumberForm not_negative{.minimum = 0.0, .finite = true};
 constexpr io::KeyUnit inertia_unit{.suffix = "kg_m2"};
 constexpr io::KeyUnit stiffness_unit{.suffix = "N_m_per_rad"};
 constexpr io::KeyUnit slope_unit{.suffix = "N_m_s_per_rad"};
@@ -42,7 +42,7 @@ void describe(io::Visitor& v, const PlantSection& section) {
   const auto& drive = section.plant.drive;
   v.defined_as("plant", "The linear plant at the motor shaft, all motors lumped.");
   v.flag("identified_from_records", section.records > 0,
-         "Whether the plant is the reconciled estimate of the case's records, not as the case "
+         "Whether the plant is the combined estimate of the case's records, not as the case "
          "states it.");
   v.number("gear_ratio", section.gear_ratio, unit::ratio, "Motor turns per turn of the axis.",
            positive);
@@ -68,7 +68,7 @@ void describe(io::Visitor& v, const PlantSection& section) {
            "Natural frequency of the valve.", positive);
   v.number("supply_torque", section.supply_torque, unit::newton_metre,
            "All motors at supply pressure.", positive);
-  v.number("torque_for_wind", section.torque_for_wind, unit::newton_metre,
+  v.number("available_wind_torque", section.available_wind_torque, unit::newton_metre,
            "What friction at the tracking rate and offset torque leave of it; 0: nothing.",
            not_negative);
   v.number("mean_wind_torque", section.mean_wind_torque, unit::newton_metre,
@@ -76,11 +76,11 @@ void describe(io::Visitor& v, const PlantSection& section) {
   v.number("slew_rate_margin", section.slew_rate_margin, unit::ratio,
            "Highest rate that valve and supply hold against friction and offset over the slew "
            "rate; null where the case says nothing of its valve's stroke.",
-           {.least = 0.0});
+           {.minimum = 0.0});
   v.number("rigid_hydraulic_frequency", section.rigid_frequency, unit::hertz,
            "All masses rigid on the oil spring.", positive);
   v.object("hydraulic_mode", section.hydraulic, "The mode on the oil spring.");
-  v.list("modes", section.modes, "In order of frequency.", io::ListSize{.least = 1});
+  v.list("modes", section.modes, "In order of frequency.", io::ListSize{.minimum = 1});
 }
 
 }  // namespace boresight::app

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/redesign/choice_verdicts.hpp>
+#include <boresight/app/redesign/interpretation_verdicts.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/next_test.hpp>
@@ -38,7 +38,7 @@ std::string mdeg(double angle) {
 }
 
 bool simulated(const Report& report) {
-  return report.time_domain && std::isfinite(report.time_domain->result.wind.beam_rms);
+  return report.time_domain && std::isfinite(report.time_domain->result.wind.boresight_rms);
 }
 
 // None without a whole set of records.
@@ -50,8 +50,8 @@ const design::SimulatedRms* expected_rms(const Report& report) {
 
 bool inertias_agree(const Report& report) {
   if (report.campaign) return report.campaign->contradiction.empty();
-  return !report.identification || !report.identification->reconciled ||
-         !report.identification->reconciled->contradictory();
+  return !report.identification || !report.identification->combined ||
+         !report.identification->combined->contradictory();
 }
 
 // As designed_antenna takes it.
@@ -74,11 +74,12 @@ design::ConfidenceGrade confidence(const Report& report, const TuningSection& se
       unstable_members(section) == 0 && !(section.instability && section.instability->value > 0.0);
   evidence.inertias_agree = inertias_agree(report);
   evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
-  evidence.verdict_depends_on_interpretation = !other_choices_text(report, section).empty() ||
-                                               !other_attitudes_text(report, section).empty() ||
-                                               !guessed_shares_text(report, section).empty();
+  evidence.verdict_depends_on_interpretation =
+      !other_interpretations_text(report, section).empty() ||
+      !other_attitudes_text(report, section).empty() ||
+      !guessed_fractions_text(report, section).empty();
   if (!section.input_effects.empty()) {
-    evidence.largest_effect = section.input_effects.front().change(section.design.beam_rms);
+    evidence.largest_effect = section.input_effects.front().change(section.design.boresight_rms);
   }
   return design::grade(evidence);
 }
@@ -132,11 +133,11 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
     return {"Controller", "none: no controller found meets every constraint of the case",
             std::string(loops)};
   }
-  const auto& law = section.design.tuning.law;
-  const auto values = section.gain_units.texts(law);
+  const auto& controller = section.design.tuning.controller;
+  const auto values = section.gain_units.texts(controller);
   std::vector<std::string> gains;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    gains.push_back(fmt::format("{} = {}", law.structure.gains()[i].symbol, values[i]));
+    gains.push_back(fmt::format("{} = {}", controller.structure.gains()[i].symbol, values[i]));
   }
   const bool fit = section.fitness == design::Fitness::fit;
   const bool sure = confidence(report, section).grade != Confidence::low;
@@ -155,16 +156,16 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
   std::string text =
       expected != nullptr ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({})",
                                         mdeg(expected->rms.value), report.time_domain->wind_speed,
-                                        interval_text(*expected, section.design.beam_rms))
+                                        interval_text(*expected, section.design.boresight_rms))
       : simulated(report)
           ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({} linear)",
-                        mdeg(report.time_domain->result.wind.beam_rms),
-                        report.time_domain->wind_speed, mdeg(section.design.beam_rms))
+                        mdeg(report.time_domain->result.wind.boresight_rms),
+                        report.time_domain->wind_speed, mdeg(section.design.boresight_rms))
           : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
-                        mdeg(section.design.beam_rms), section.design_speed);
+                        mdeg(section.design.boresight_rms), section.design_speed);
   if (section.effect.amplitude > 0.0 && std::isfinite(section.effect.factor)) {
-    text +=
-        fmt::format("; {} with the limit cycle", mdeg(section.effect.rms(section.design.beam_rms)));
+    text += fmt::format("; {} with the limit cycle",
+                        mdeg(section.effect.rms(section.design.boresight_rms)));
   }
   if (tightest != section.budgets.end()) {
     text += fmt::format("; budget {}", mdeg(tightest->budget.rms));
@@ -197,9 +198,9 @@ CardLine present_line(const Report& report, const TuningSection& section) {
   return line(fmt::format("{} {} mdeg{}, recommended {}, {}",
                           present.retuned ? "not given; " + present_label(present.structure, true)
                                           : present.structure + ":",
-                          mdeg(in_wind ? *present.simulated_rms : present.design.beam_rms),
+                          mdeg(in_wind ? *present.simulated_rms : present.design.boresight_rms),
                           present.design.verification.passed ? "" : " (constraints violated)",
-                          mdeg(in_wind ? expected->rms.value : section.design.beam_rms),
+                          mdeg(in_wind ? expected->rms.value : section.design.boresight_rms),
                           in_wind ? "simulated" : "linear plant"));
 }
 
@@ -246,7 +247,7 @@ CardLine stability_line(const TuningSection& section) {
   if (std::isfinite(gain)) text += fmt::format(", gain {:.1f} dB", 20.0 * std::log10(gain));
   text += " (worst)";
   if (section.ensemble) {
-    text += fmt::format("; constraints met on {}/{} models", section.ensemble->within_goals,
+    text += fmt::format("; constraints met on {}/{} models", section.ensemble->within_constraints,
                         section.ensemble->members.size());
     if (const std::size_t unstable = unstable_members(section); unstable > 0) {
       text += fmt::format(", {} UNSTABLE", unstable);
@@ -261,21 +262,21 @@ CardLine stability_line(const TuningSection& section) {
 
 CardLine limit_cycle_line(const TimeDomainSection& section) {
   std::vector<std::string> parts;
-  for (const auto& run : section.result.hunting) {
+  for (const auto& run : section.result.limit_cycles) {
     const std::string at = run.rate == 0.0 ? "at rest" : "while tracking";
     if (run.status != design::RunStatus::complete) {
       parts.push_back("not shown " + at);
     } else if (run.limit_cycle) {
-      parts.push_back(fmt::format("+-{:.2f} mdeg {}", run.beam_amplitude / millidegree, at));
+      parts.push_back(fmt::format("+-{:.2f} mdeg {}", run.boresight_amplitude / millidegree, at));
     } else {
       parts.push_back("none " + at);
     }
   }
   std::string text = fmt::format("{}", fmt::join(parts, ", "));
-  if (!not_still(section).empty()) text += ": BEYOND the tightest budget";
+  if (!limit_cycle_remark(section).empty()) text += ": BEYOND the tightest budget";
   if (const auto& reversal = section.result.reversal;
       reversal && reversal->status == design::RunStatus::complete) {
-    text += fmt::format("; velocity reversal {:.1f} mdeg", reversal->beam_error / millidegree);
+    text += fmt::format("; velocity reversal {:.1f} mdeg", reversal->boresight_error / millidegree);
   }
   return {"Limit cycle", text, std::string(in_time)};
 }
@@ -290,7 +291,7 @@ CardLine flywheel_line(const MatchingSection& section) {
   const MatchingSeries& series = section.series.front();
   const std::size_t end = verdict.better_end(), built = verdict.built();
   const auto at = [&](const MatchingSeries& one, std::size_t row) {
-    return mdeg(one.designs[row].beam_rms);
+    return mdeg(one.designs[row].boresight_rms);
   };
   // Other loops than the recommended ones, on the nominal plant.
   const std::string loops_compared =
@@ -327,11 +328,11 @@ CardLine settle_line(const Report& report) {
     evidence = inertia;
     std::string text = "reflected inertia";
     if (report.identification && !report.identification->inertia.methods.empty()) {
-      const auto [least, most] =
+      const auto [minimum, maximum] =
           std::ranges::minmax(report.identification->inertia.methods, {},
                               [](const auto& method) { return method.reflected_inertia.value; });
-      text += fmt::format(" {:.3f} to {:.3f} kg m2 by method", least.reflected_inertia.value,
-                          most.reflected_inertia.value);
+      text += fmt::format(" {:.3f} to {:.3f} kg m2 by method", minimum.reflected_inertia.value,
+                          maximum.reflected_inertia.value);
     }
     open.push_back(std::move(text));
   }
@@ -355,8 +356,9 @@ CardLine settle_line(const Report& report) {
 }
 
 CardLine test_line(const Report& report, const TuningSection& section) {
-  const auto test = next_test(section.input_effects, section.design.beam_rms, report.time_domain,
-                              is_superseded(report.superseded, "friction_curve."));
+  const auto test =
+      next_test(section.input_effects, section.design.boresight_rms, report.time_domain,
+                is_superseded(report.superseded, "friction_curve."));
   if (!test) {
     return {"Next test", "none would change the result significantly", std::string(loops)};
   }

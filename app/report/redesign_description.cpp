@@ -17,14 +17,14 @@ namespace {
 
 namespace unit = io::key_units;
 
-constexpr io::NumberForm positive{.least = 0.0};
+constexpr io::NumberForm positive{.minimum = 0.0};
 constexpr io::NumberForm above_zero{.above = 0.0, .finite = true};
 constexpr io::KeyUnit inertia_unit{.suffix = "kg_m2"};
 
 constexpr std::array<std::string_view, 3> wind_models{"uniform", "vickery", "coherence"};
 
 // The largest sensitivity allowed where the loop is cut.
-struct SensitivityGoal {
+struct SensitivityConstraint {
   control::LoopBreak loop_break = control::LoopBreak::valve_command;
   double peak = 0.0;
 };
@@ -35,7 +35,7 @@ struct MatchingPoint {
   design::Design design;
 };
 
-void describe_choice(io::Visitor& v, const ChoiceResult& choice) {
+void describe_choice(io::Visitor& v, const InterpretationResult& choice) {
   v.text("name", choice.name, "The choice.");
   v.text("says", choice.says, "What it takes from where.");
   v.number("oil_stiffness", choice.oil_stiffness, {.suffix = "N_m_per_rad"}, "Of the oil spring.",
@@ -45,20 +45,22 @@ void describe_choice(io::Visitor& v, const ChoiceResult& choice) {
            "Motors over load; without meaning where the inertia is below that of the motors.");
   v.text_or_null("impossible_because", choice.impossible,
                  "Why there is no plant; null where there is one.");
-  v.numbers_if("speed_limits", choice.speed_limits.has_value(),
-               choice.speed_limits.value_or(std::vector<double>{}), unit::metre_per_second,
-               "Mean wind speeds up to which this choice's law meets each budget on its plant, "
-               "gains held; null as a whole without a plant or a stable law, null of a budget that "
-               "is met in all winds looked at.",
-               positive);
-  v.object("design", choice.design, "Its law; null where there is no plant.");
+  v.numbers_if(
+      "speed_limits", choice.speed_limits.has_value(),
+      choice.speed_limits.value_or(std::vector<double>{}), unit::metre_per_second,
+      "Mean wind speeds up to which this choice's controller meets each budget on its plant, "
+      "with fixed gains; null as a whole without a plant or a stable controller, null of a budget "
+      "that "
+      "is met in all winds looked at.",
+      positive);
+  v.object("design", choice.design, "Its controller; null where there is no plant.");
 }
 
 void describe_point(io::Visitor& v, const MatchingPoint& point) {
   const MatchingRow& row = point.row;
   v.text("label", row.label, "Number of disks, or 'ratio 1'.");
   v.number("flywheel_disks", row.disks, unit::ratio, "On each motor; not whole at ratio 1.",
-           {.least = 0.0, .finite = true});
+           {.minimum = 0.0, .finite = true});
   v.number("motor_inertia", row.motor_inertia, inertia_unit, "All motors.", above_zero);
   v.number("reflected_inertia", row.reflected_inertia, inertia_unit, "Motors and load.",
            above_zero);
@@ -77,7 +79,7 @@ void describe_series(io::Visitor& v, const MatchingSection& section, const Match
     points.push_back({section.rows[i], series.designs[i]});
   }
   v.list("points", points, "By number of disks.",
-         [&](const MatchingPoint& point) { describe_point(v, point); }, {.least = 2});
+         [&](const MatchingPoint& point) { describe_point(v, point); }, {.minimum = 2});
 }
 
 void describe_conditions(io::Visitor& v, const TuningSection& section) {
@@ -91,45 +93,46 @@ void describe_conditions(io::Visitor& v, const TuningSection& section) {
   v.word("gust_spectrum", plant::to_string(gusts.kind),
          {"davenport", "von_karman", "kaimal", "eurocode"}, "Spectrum of the gusts.");
   v.number("turbulence_intensity", intensity, unit::ratio,
-           "Rms of the gusts over the design wind speed.", {.least = 0.0, .finite = true});
+           "Rms of the gusts over the design wind speed.", {.minimum = 0.0, .finite = true});
   v.number("wind_torque_coefficient", section.wind_site.torque_coefficient, unit::ratio,
            "Mean torque over 1/2 rho V^2 A D, from the table at its yaw and elevation if the case "
            "has one.",
            {.finite = true});
 }
 
-void describe_goals(io::Visitor& v, const design::HardGoals& goals) {
-  std::vector<SensitivityGoal> peaks;
+void describe_goals(io::Visitor& v, const design::Constraints& goals) {
+  std::vector<SensitivityConstraint> peaks;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     peaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b)});
   }
-  v.list("sensitivity_goals", peaks, "Largest sensitivities allowed.",
-         [&](const SensitivityGoal& one) {
+  v.list("sensitivity_constraints", peaks, "Largest sensitivities allowed.",
+         [&](const SensitivityConstraint& one) {
            io::describe_break(v, "loop_break", one.loop_break);
            v.number("sensitivity_peak", one.peak, unit::ratio, "Goal.",
-                    {.least = 1.0, .finite = true});
+                    {.minimum = 1.0, .finite = true});
          },
-         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
-  v.number("valve_effort_goal", goals.valve_effort, unit::radian_per_second,
-           "Largest valve effort allowed.", above_zero);
+         {.minimum = control::loop_breaks.size(), .maximum = control::loop_breaks.size()});
+  v.number("control_effort_constraint", goals.control_effort, unit::radian_per_second,
+           "Largest control effort allowed.", above_zero);
 }
 
 void describe_search(io::Visitor& v, const TuningSection& section) {
   v.list("seeds", section.seeds, "The search from each seed.",
          [&](const TuningSection::SeedResult& one) {
            v.count("seed", one.seed, "The seed.");
-           v.number("beam_rms", one.beam_rms, unit::millidegree,
-                    "Beam error that the search reached.", positive);
+           v.number("boresight_rms", one.boresight_rms, unit::millidegree,
+                    "Boresight error that the search reached.", positive);
            v.flag("verified", one.verified, "Confirmed by independent code.");
          },
-         {.least = 1});
+         {.minimum = 1});
 }
 
 void describe_wind_models(io::Visitor& v, const TuningSection& section) {
   v.list("wind_models", section.wind_alternatives, "The same gains by each wind model.",
          [&](const TuningSection::WindAlternative& one) {
            v.word("model", plant::to_string(one.model), wind_models, "Model of the wind torque.");
-           v.number("beam_rms", one.beam_rms, unit::millidegree, "Beam error.", positive);
+           v.number("boresight_rms", one.boresight_rms, unit::millidegree, "Boresight error.",
+                    positive);
            v.numbers("budget_wind_speed_limits", one.speed_limits, unit::metre_per_second,
                      "Mean wind speeds up to which the budgets are met by this model, in their "
                      "order; null: beyond 60 m/s.",
@@ -157,15 +160,16 @@ void describe_present(io::Visitor& v, const TuningSection& section) {
   v.list("present", section.present,
          "The gains that the antenna runs on now, by the case, on the same plant; if it states "
          "none, the present structure, or that of fewest gains, tuned for this plant.",
-         [&](const TuningSection::PresentLaw& law) {
-           v.text("structure", law.structure, "Its loop structure.");
-           v.flag("stable", law.design.tuning.status != design::TuningStatus::unstable,
+         [&](const TuningSection::PresentController& controller) {
+           v.text("structure", controller.structure, "Its loop structure.");
+           v.flag("stable", controller.design.tuning.status != design::TuningStatus::unstable,
                   "The loop is stable on the plant.");
-           v.flag("retuned", law.retuned, "Tuned for this plant: the case states no gains.");
-           v.flag("goals_met", law.design.verification.passed, "It meets every hard goal.");
-           v.number("beam_rms", law.design.beam_rms, unit::millidegree,
+           v.flag("retuned", controller.retuned, "Tuned for this plant: the case states no gains.");
+           v.flag("constraints_met", controller.design.verification.passed,
+                  "It meets every constraint.");
+           v.number("boresight_rms", controller.design.boresight_rms, unit::millidegree,
                     "Boresight error; null of an unstable loop.", positive);
-           v.number("simulated_rms", law.simulated_rms, unit::millidegree,
+           v.number("simulated_rms", controller.simulated_rms, unit::millidegree,
                     "Expected on the nonlinear antenna; null of gains of the case, and if it was "
                     "not simulated.",
                     positive);
@@ -178,8 +182,9 @@ void describe_present(io::Visitor& v, const TuningSection& section) {
 void describe_inputs(io::Visitor& v, const TuningSection& section) {
   constexpr io::KeyUnit as_named{.suffix = "si"};
   v.list("input_effects", section.input_effects,
-         "The numbers of the case on which the law's rms depends most, each moved alone with the "
-         "gains held; the largest effect first.",
+         "The numbers of the case on which the controller's rms depends most, each moved alone "
+         "with the "
+         "with fixed gains; the largest effect first.",
          [&](const InputEffect& effect) {
            v.text("key", effect.quantity.key, "Its place in the case file.");
            v.word("basis", to_string(effect.quantity.basis),
@@ -187,48 +192,50 @@ void describe_inputs(io::Visitor& v, const TuningSection& section) {
                   "What it rests on.");
            v.number("value", effect.quantity.value, as_named,
                     "As the case has it; frequencies in Hz.", {.finite = true});
-           v.number("moved_by", effect.moved_by, as_named,
-                    "To either side: its standard uncertainty, or a tenth of an assumed value "
-                    "without one. An assumed share of wind or beam without one is moved to its "
-                    "body's share of the inertia, if that is farther than a tenth, and as far to "
-                    "the other side, but not beyond 0 and 1.",
-                    above_zero);
+           v.number(
+               "moved_by", effect.moved_by, as_named,
+               "To either side: its standard uncertainty, or a tenth of an assumed value "
+               "without one. An assumed fraction of wind or boresight without one is moved to its "
+               "body's fraction of the inertia, if that is farther than a tenth, and as far to "
+               "the other side, but not beyond 0 and 1.",
+               above_zero);
            v.flag("uncertainty_unstated", effect.unstated,
                   "The case states no uncertainty, and moved_by is such a guess.");
-           v.number("lower_beam_rms", effect.low_rms, unit::millidegree,
+           v.number("lower_boresight_rms", effect.low_rms, unit::millidegree,
                     "With the number lower; null if unstable.", positive);
-           v.number("higher_beam_rms", effect.high_rms, unit::millidegree,
+           v.number("higher_boresight_rms", effect.high_rms, unit::millidegree,
                     "With the number higher; null if unstable.", positive);
          });
 }
 
 void describe_budgets(io::Visitor& v, const TuningSection& section) {
-  v.list("budgets", section.budgets, "Wind speed up to which each budget is met.",
-         [&](const BudgetResult& result) {
-           v.text("name", result.budget.name, "The budget.");
-           v.text("band", result.budget.band, "Its band.");
-           v.text("convention", result.budget.convention, "What the loss is taken of.");
-           v.number("rms", result.budget.rms, unit::millidegree, "As rms error of one axis.",
-                    above_zero);
-           v.number("required_wind_speed", result.budget.wind_speed, unit::metre_per_second,
-                    "Mean wind speed up to which the case requires it; null if it states none.",
-                    above_zero);
-           v.number("wind_speed_limit", result.wind_speed_limit, unit::metre_per_second,
-                    "Mean wind speed up to which it is met, gains held, limit cycle included.",
-                    positive);
-           v.count("plants_met", result.plants_met,
-                   "Plants of the ensemble on which it is met in the wind up to which the case "
-                   "needs it, supply torque not counted; null without such a wind or an ensemble.");
-           describe_share_of_time(v, section.climate, reached_wind_speed(section, result),
-                                  "Share of the climate's time up to that speed, or up to the "
+  v.list(
+      "budgets", section.budgets, "Wind speed up to which each budget is met.",
+      [&](const BudgetResult& result) {
+        v.text("name", result.budget.name, "The budget.");
+        v.text("band", result.budget.band, "Its band.");
+        v.text("convention", result.budget.convention, "What the loss is taken of.");
+        v.number("rms", result.budget.rms, unit::millidegree, "As rms error of one axis.",
+                 above_zero);
+        v.number("required_wind_speed", result.budget.wind_speed, unit::metre_per_second,
+                 "Mean wind speed up to which the case requires it; null if it states none.",
+                 above_zero);
+        v.number("wind_speed_limit", result.wind_speed_limit, unit::metre_per_second,
+                 "Mean wind speed up to which it is met, with fixed gains, limit cycle included.",
+                 positive);
+        v.count("plants_met", result.plants_met,
+                "Plants of the ensemble on which it is met in the wind up to which the case "
+                "needs it, supply torque not counted; null without such a wind or an ensemble.");
+        describe_fraction_of_time(v, section.climate, reached_wind_speed(section, result),
+                                  "Fraction of the climate's time up to that speed, or up to the "
                                   "supply's if that is less; null without a climate.");
-         });
+      });
 }
 
 }  // namespace
 
 void describe(io::Visitor& v, const TuningSection& section) {
-  v.defined_as("tuning", "The loops tuned for the least beam rms in wind.");
+  v.defined_as("tuning", "The loops tuned for the least boresight rms in wind.");
   describe_conditions(v, section);
   v.word("tuned_for", to_string(section.tuned_for), {"nominal", "robust"},
          "What the recommended controller was tuned for: the case's plant alone, or all of the "
@@ -238,17 +245,17 @@ void describe(io::Visitor& v, const TuningSection& section) {
           "Other controllers whose simulated rms, limit cycle included, does not differ by more "
           "than 2 % or than the same winds leave open.");
   v.object("effect", section.effect,
-           "Of its simulation, at least that of the linear plant: budgets are judged by it.");
-  v.number(
-      "judged_rms", section.effect.rms(section.design.beam_rms), unit::millidegree,
-      "What budgets are compared with in the design wind: beam rms with that effect; null if a "
-      "run was lost.",
-      positive);
+           "Of its simulation, at least that of the linear plant: budgets are evaluated by it.");
+  v.number("evaluated_rms", section.effect.rms(section.design.boresight_rms), unit::millidegree,
+           "What budgets are compared with in the design wind: boresight rms with that effect; "
+           "null if a "
+           "run was lost.",
+           positive);
   v.count("seeds_within_1_percent", section.seeds_within_1_percent,
           "Seeds whose verified rms is within 1 % of the best.");
-  v.number("encoder_held_rms", section.encoder_held_rms, unit::millidegree,
+  v.number("flexure_rms", section.flexure_rms, unit::millidegree,
            "Rms of flexure beyond the encoder, with the encoder at rest; not a bound.", positive);
-  v.number("supply_wind_speed", section.supply_wind_speed, unit::metre_per_second,
+  v.number("torque_limited_wind_speed", section.torque_limited_wind_speed, unit::metre_per_second,
            "Mean wind speed whose mean torque takes what friction and offset leave of the "
            "supply's; null if there is none.",
            positive);
@@ -263,8 +270,8 @@ void describe(io::Visitor& v, const TuningSection& section) {
   describe_bands(v, section);
   describe_present(v, section);
   v.object("ensemble", section.ensemble,
-           "The design's gains held on plants that may be the true one: drawn from what the "
-           "records leave open, otherwise the case's ensemble; null without a stable law.");
+           "The design's controller with fixed gains on the ensemble members: drawn from what the "
+           "records leave open, otherwise the case's ensemble; null without a stable controller.");
   v.group_if(
       "instability", section.instability.has_value(),
       "Of a redesign from records: probability that the loop is unstable on a sample of the case's "
@@ -279,16 +286,18 @@ void describe(io::Visitor& v, const TuningSection& section) {
   describe_budgets(v, section);
 }
 
-void describe_choices(io::Visitor& v, const std::vector<ChoiceResult>& choices) {
-  v.list("choices", choices,
+void describe_interpretations(io::Visitor& v,
+                              const std::vector<InterpretationResult>& interpretations) {
+  v.list("interpretations", interpretations,
          "The loop tuned on what other choices among contradictory numbers make of the plant.",
-         [&](const ChoiceResult& choice) { describe_choice(v, choice); }, {.least = 1});
+         [&](const InterpretationResult& choice) { describe_choice(v, choice); }, {.minimum = 1});
 }
 
 void describe_matching(io::Visitor& v, const MatchingSection& section) {
   v.list("matching", section.series,
          "The loops tuned again at each number of flywheel disks, by loop structure and friction.",
-         [&](const MatchingSeries& series) { describe_series(v, section, series); }, {.least = 1});
+         [&](const MatchingSeries& series) { describe_series(v, section, series); },
+         {.minimum = 1});
 }
 
 }  // namespace boresight::app

@@ -12,8 +12,9 @@ namespace boresight::app {
 
 /// "tuning" of docs/report.schema.json.
 void describe(io::Visitor& v, const TuningSection& section);
-/// "choices" of docs/report.schema.json.
-void describe_choices(io::Visitor& v, const std::vector<ChoiceResult>& choices);
+/// "interpretations" of docs/report.schema.json.
+void describe_interpretations(io::Visitor& v,
+                              const std::vector<InterpretationResult>& interpretations);
 /// "matching" of docs/report.schema.json.
 void describe_matching(io::Visitor& v, const MatchingSection& section);
 

@@ -17,7 +17,7 @@ Report begin_report(std::string command, const io::Case& antenna, std::string ca
   return report;
 }
 
-std::optional<double> ChoiceResult::missed_resonance() const {
+std::optional<double> InterpretationResult::missed_resonance() const {
   if (!wanted_frequency || !design) return std::nullopt;
   constexpr double same = 0.05;
   return std::abs(resonance / *wanted_frequency - 1.0) < same ? std::nullopt

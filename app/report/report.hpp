@@ -31,7 +31,7 @@ namespace boresight::app {
 
 struct IdentificationSection {
   identification::InertiaIdentification inertia;
-  std::optional<identification::ReconciledInertia> reconciled;
+  std::optional<identification::CombinedInertia> combined;
   /// Values the case states for a method's inertia and ratio, by method; empty text where none.
   struct Printed {
     std::string inertia;
@@ -64,9 +64,9 @@ struct PlantSection {
   plant::PlantMode hydraulic;
   /// The case states its structure's frequencies with the motors held.
   bool motors_held = false;
-  double supply_torque = 0.0;     // N m
-  double torque_for_wind = 0.0;   // N m, what friction and offset leave of it
-  double mean_wind_torque = 0.0;  // N m at the motor, design speed
+  double supply_torque = 0.0;          // N m
+  double available_wind_torque = 0.0;  // N m, what friction and offset leave of it
+  double mean_wind_torque = 0.0;       // N m at the motor, design speed
   std::optional<double> slew_rate_margin = std::nullopt;  // io::slew_rate_margin
   /// Number of records whose combined estimate the plant is; 0: the plant is as stated in the case.
   std::size_t records = 0;
@@ -92,7 +92,7 @@ struct TuningSection : design::RecommendedDesign {
 };
 
 /// The same loop tuned on what another choice among contradictory numbers would make of the plant.
-struct ChoiceResult {
+struct InterpretationResult {
   std::string name;
   std::string says;  // what it takes from where
   double oil_stiffness = 0.0;
@@ -101,7 +101,7 @@ struct ChoiceResult {
   std::optional<design::Design> design;  // none where the choice leaves no plant
   std::string impossible;                // why
   /// True for another assumption on the modal participation of wind and boresight.
-  bool other_shares = false;
+  bool other_fractions = false;
   /// True for another attitude of the same antenna, on its own springs.
   bool other_attitude = false;
   /// True for another source's number or a test's result that contradicts the reference; false for
@@ -124,7 +124,7 @@ struct ChoiceResult {
 std::string tuning_heading(const TuningSection& section);
 
 /// The heading above choices: of contradictions where there are some.
-std::string choices_heading(const std::vector<ChoiceResult>& choices);
+std::string interpretations_heading(const std::vector<InterpretationResult>& interpretations);
 
 /// What one command found: the sections it computed.
 struct Report {
@@ -143,7 +143,7 @@ struct Report {
   std::optional<TuneSection> tuned;              // of the command tune
   std::optional<TimeDomainSection> time_domain;  // of the best tuned controller
   std::optional<design::PointingLimit> limit;    // of tune, at the best controller's wind speed
-  std::vector<ChoiceResult> choices;
+  std::vector<InterpretationResult> interpretations;
   std::optional<MatchingSection> matching;
   std::optional<MatchSection> matched;       // of the command match
   std::optional<EvaluateSection> evaluated;  // of the command evaluate

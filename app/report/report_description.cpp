@@ -36,7 +36,7 @@ void describe_section(io::Visitor& v, std::string_view key, const std::optional<
 void describe(io::Visitor& v, const Report& report) {
   describe_origin(v, report.command, commands);
   describe_case(v, report.case_path, report.title, report.axis);
-  v.count("seed", report.seed, "First seed of searches and draws.");
+  v.count("seed", report.seed, "First seed of searches and samples.");
   v.flag("interrupted", report.interrupted,
          "The user stopped the work: the sections here are whole, others are missing.");
   const auto card = redesign_card(report);
@@ -59,7 +59,8 @@ void describe(io::Visitor& v, const Report& report) {
   describe_section(v, "tuned", report.tuned, "The structures compared.");
   describe_section(v, "time_domain", report.time_domain, "On the nonlinear antenna.");
   describe_section(v, "limit", report.limit, "What no controller can point better than.");
-  v.members_if(!report.choices.empty(), [&] { describe_choices(v, report.choices); });
+  v.members_if(!report.interpretations.empty(),
+               [&] { describe_interpretations(v, report.interpretations); });
   v.optional_members(report.matching,
                      [&](const MatchingSection& matching) { describe_matching(v, matching); });
   describe_section(v, "matched", report.matched, "Motor inertias compared.");

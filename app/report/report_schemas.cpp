@@ -46,7 +46,7 @@ struct CommandSections {
 const std::vector<CommandSections>& sections_of_commands() {
   static const std::vector<CommandSections> sections{
       {"redesign",
-       {"identification", "audit", "plant", "tuning", "choices", "matching"},
+       {"identification", "audit", "plant", "tuning", "interpretations", "matching"},
        {"campaign", "time_domain", "linear_models", "card"}},
       {"audit", {"audit"}, {}},
       {"identify", {"identification"}, {"campaign"}},

@@ -72,9 +72,9 @@ void SchemaWriter::on_number(const io::Member& member, const std::optional<doubl
                              const io::KeyUnit& unit, const io::NumberForm& form) {
   Json schema = described(member.meaning);
   schema["type"] = type_of("number", !form.finite);
-  if (std::isfinite(form.least)) schema["minimum"] = limit(form.least);
+  if (std::isfinite(form.minimum)) schema["minimum"] = limit(form.minimum);
   if (std::isfinite(form.above)) schema["exclusiveMinimum"] = limit(form.above);
-  if (std::isfinite(form.most)) schema["maximum"] = limit(form.most);
+  if (std::isfinite(form.maximum)) schema["maximum"] = limit(form.maximum);
   put(io::key_with_unit(member.key, unit), std::move(schema));
 }
 
@@ -85,8 +85,8 @@ void SchemaWriter::on_count(const io::Member& member, const std::optional<std::u
     schema["const"] = *value;
   } else {
     schema["type"] = type_of("integer", form.nullable);
-    schema["minimum"] = form.least;
-    if (form.most) schema["maximum"] = *form.most;
+    schema["minimum"] = form.minimum;
+    if (form.maximum) schema["maximum"] = *form.maximum;
   }
   put(member.key, std::move(schema));
 }
@@ -166,8 +166,8 @@ void SchemaWriter::on_list(const io::Member& member, const io::ListSize& size, b
   list.is_list = true;
   list.value = described(member.meaning);
   list.value["type"] = type_of("array", nullable);
-  if (size.least > 0) list.value["minItems"] = size.least;
-  if (size.most) list.value["maxItems"] = *size.most;
+  if (size.minimum > 0) list.value["minItems"] = size.minimum;
+  if (size.maximum) list.value["maxItems"] = *size.maximum;
   open_.push_back(std::move(list));
 }
 

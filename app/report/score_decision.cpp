@@ -26,22 +26,22 @@ std::vector<std::string> decision(const MonteCarloSection& section) {
       fmt::format("{} with fixed gains on {} plants is unstable on a fraction of {:.4g} (95 %: at "
                   "most {:.2g}) and meets all constraints on {:.1f} %.",
                   section.structure, section.plants, section.instability.value,
-                  section.instability.upper, 100.0 * section.all_goals_met.value)};
+                  section.instability.upper, 100.0 * section.all_constraints_met.value)};
   if (!section.budgets.empty()) {
     const auto& one = section.budgets.front();
     sentences.push_back(
         fmt::format("{} (band {}, {:.3f} mdeg) is met on {:.1f} % of the plants in {:.3g} m/s, "
                     "{}.",
                     one.budget.name, one.budget.band, mdeg(one.budget.rms), 100.0 * one.met.value,
-                    section.wind_speed, judged_by(section.effect)));
+                    section.wind_speed, evaluated_by(section.effect)));
   }
-  const auto most = std::ranges::max_element(
+  const auto maximum = std::ranges::max_element(
       section.correlations, {}, [](const auto& one) { return std::abs(one.with_rms.value); });
-  if (most != section.correlations.end()) {
+  if (maximum != section.correlations.end()) {
     sentences.push_back(
         fmt::format("To narrow that, measure the {} first (rank correlation "
                     "{:+.2f} with the rms).",
-                    to_string(most->input), most->with_rms.value));
+                    to_string(maximum->input), maximum->with_rms.value));
   }
   return sentences;
 }
@@ -67,8 +67,8 @@ std::string beside_linear(const std::optional<design::TimeDomainStudy>& simulate
 }  // namespace
 
 std::vector<std::string> decision(const BenchmarkReport& report) {
-  if (!report.score.stable && report.present_gains && report.controller.law) {
-    return {unstable_present_gains(report.controller.law->structure.name())};
+  if (!report.score.stable && report.present_gains && report.controller.controller) {
+    return {unstable_present_gains(report.controller.controller->structure.name())};
   }
   if (!report.score.stable) {
     return {
@@ -78,17 +78,19 @@ std::vector<std::string> decision(const BenchmarkReport& report) {
   }
   const auto& score = report.score;
   Sentences sentences{fmt::format("{} has {:.3f} mdeg rms per axis in {:.3g} m/s of wind, {}.",
-                                  report.controller.description, mdeg(score.design_wind.beam_rms),
+                                  report.controller.description,
+                                  mdeg(score.design_wind.boresight_rms),
                                   score.design_wind.mean_speed, beside_linear(report.nonlinear))};
   if (score.ensemble) {
-    sentences.push_back(fmt::format(
-        "It is stable on {} of {} ensemble members and meets the constraints on {}.",
-        score.ensemble->stable, score.ensemble->members.size(), score.ensemble->within_goals));
+    sentences.push_back(
+        fmt::format("It is stable on {} of {} ensemble members and meets the constraints on {}.",
+                    score.ensemble->stable, score.ensemble->members.size(),
+                    score.ensemble->within_constraints));
   }
-  if (score.reference && score.reference->least_rms) {
+  if (score.reference && score.reference->min_rms) {
     sentences.push_back(
         fmt::format("Lower bound with these sensors and this control effort: {:.3f} mdeg.",
-                    mdeg(*score.reference->least_rms)));
+                    mdeg(*score.reference->min_rms)));
   }
   return sentences;
 }
@@ -111,10 +113,10 @@ std::vector<std::string> decision(const CommissionReport& report) {
 std::vector<std::string> decision(const SimulationReport& report) {
   Sentences sentences;
   for (const auto& run : report.position) {
-    if (!run.beam_rms || !run.predicted_rms) continue;
+    if (!run.boresight_rms || !run.predicted_rms) continue;
     sentences.push_back(fmt::format(
         "Expect {:.3f} mdeg rms in {} on the nonlinear antenna; the linear design predicts {:.3f}.",
-        mdeg(*run.beam_rms), run.test, mdeg(*run.predicted_rms)));
+        mdeg(*run.boresight_rms), run.test, mdeg(*run.predicted_rms)));
     break;
   }
   if (!report.failure.empty()) {

@@ -33,8 +33,8 @@ double mdeg(double angle) {
 std::string first_change(const MatchSection& section, const MatchSeries& best, bool others) {
   const std::size_t built = as_built(section);
   const auto& run = best.values[built].time_domain;
-  if (run && hunts_at(section, best, built)) {
-    const bool seen = hunting_beyond(section, run->hunting);
+  if (run && has_limit_cycle_at(section, best, built)) {
+    const bool seen = limit_cycle_beyond(section, run->limit_cycles);
     return seen ? "As built, these loops limit-cycle beyond the tightest budget on the nonlinear "
                   "antenna."
                 : "As built, these loops are not shown free of limit cycles on the nonlinear "
@@ -42,7 +42,7 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
   }
   const design::StructuresAsBuilt structures = structures_as_built(section);
   const double by_disks =
-      best.values[built].beam_rms / best.values[best.best.value_or(built)].beam_rms - 1.0;
+      best.values[built].boresight_rms / best.values[best.best.value_or(built)].boresight_rms - 1.0;
   std::string text =
       fmt::format("Leaving the motors as built costs {:+.1f} % with these loops", 100.0 * by_disks);
   if (structures.count < 2) {
@@ -72,12 +72,12 @@ std::string measure_friction(const MatchSection& section) {
 // Of the gains that the antenna runs on now.
 Sentences unstable_now(const TuneSection& section) {
   Sentences sentences;
-  for (const auto& law : section.laws) {
-    if (law.tuned_for != TunedFor::present || law.stable() ||
-        law.wind_speed != section.wind_speeds.front()) {
+  for (const auto& controller : section.controllers) {
+    if (controller.tuned_for != TunedFor::present || controller.stable() ||
+        controller.wind_speed != section.wind_speeds.front()) {
       continue;
     }
-    sentences.push_back(unstable_present_gains(law.structure));
+    sentences.push_back(unstable_present_gains(controller.structure));
   }
   return sentences;
 }
@@ -106,35 +106,37 @@ std::string decide_motors(const MatchSection& section) {
 }
 
 // The least linear rms that a structure reaches, and the range of inertias around it.
-std::string linear_minimum(const MatchSection& section, const MatchSeries& best, bool others_hunt) {
+std::string linear_minimum(const MatchSection& section, const MatchSeries& best,
+                           bool others_limit_cycle) {
   const std::size_t place = best.best.value_or(as_built(section));
   const MatchPoint& point = section.points[place];
-  const double least = best.values[place].beam_rms;
+  const double minimum = best.values[place].boresight_rms;
   const bool least_of_all = std::ranges::none_of(section.series, [&](const MatchSeries& series) {
-    return series.best && series.values[*series.best].beam_rms < least;
+    return series.best && series.values[*series.best].boresight_rms < minimum;
   });
   const std::string lead = std::string(least_of_all ? "The minimum linear rms"
                                                     : "The linear rms of the structure to prefer") +
-                           (others_hunt ? ", of those free of limit cycles," : "");
+                           (others_limit_cycle ? ", of those free of limit cycles," : "");
   return fmt::format(
       "{} is {:.3f} mdeg in {:.3g} m/s, with {} loops and {:.4g} disks on each motor (ratio "
       "{:.2f}); "
       "from {:.1f} to {:.1f} disks it stays within 5 %.",
-      lead, mdeg(least), section.wind_speed, best.name, point.disks, point.motor_to_load_ratio,
+      lead, mdeg(minimum), section.wind_speed, best.name, point.disks, point.motor_to_load_ratio,
       best.within_5_percent.lowest, best.within_5_percent.highest);
 }
 
-// Of structures free of limit cycles; `others_hunt`: some were excluded; `compared`: decide_motors
-// decides on the flywheels.
-Sentences decide_inertia(const MatchSection& section, bool others_hunt, bool compared) {
+// Of structures free of limit cycles; `others_limit_cycle`: some were excluded; `compared`:
+// decide_motors decides on the flywheels.
+Sentences decide_inertia(const MatchSection& section, bool others_limit_cycle, bool compared) {
   const MatchSeries* best = recommended_structure(section, [](const MatchSeries&) { return true; });
   if (best == nullptr) {
-    return {others_hunt ? "No structure that meets the constraints is shown free of limit cycles "
-                          "beyond the tightest budget: examine friction before the motors."
-                        : "No structure meets the constraints at any motor inertia."};
+    return {others_limit_cycle
+                ? "No structure that meets the constraints is shown free of limit cycles "
+                  "beyond the tightest budget: examine friction before the motors."
+                : "No structure meets the constraints at any motor inertia."};
   }
   const std::size_t built = as_built(section), best_point = best->best.value_or(built);
-  const double least = best->values[best_point].beam_rms;
+  const double minimum = best->values[best_point].boresight_rms;
   const MatchValue& present = best->values[built];
   const MatchSeries* moved = most_moved(section);
   if (!compared && moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
@@ -142,17 +144,18 @@ Sentences decide_inertia(const MatchSection& section, bool others_hunt, bool com
         "Leave the flywheels as they are: with {} loops the rms as built is {:.3f} mdeg in {:g} "
         "m/s, and from {:g} to {:g} disks on each motor no structure's rms changes by more than "
         "{:.1f} %.{}",
-        best->name, mdeg(present.beam_rms), section.wind_speed, section.points.front().disks,
+        best->name, mdeg(present.boresight_rms), section.wind_speed, section.points.front().disks,
         section.points.back().disks, 100.0 * span_of(*moved), what_matters_more(section))};
   }
   const bool inertia_matters =
-      !present.found || present.beam_rms / least - 1.0 >= negligible_change;
+      !present.found || present.boresight_rms / minimum - 1.0 >= negligible_change;
   Sentences sentences;
   // Linear figures beside the simulated ones that decided would only name another structure.
   if (!compared) {
-    sentences.push_back(linear_minimum(section, *best, others_hunt));
+    sentences.push_back(linear_minimum(section, *best, others_limit_cycle));
     if (present.found) {
-      sentences.push_back(first_change(section, *best, others_hunt || section.series.size() > 1));
+      sentences.push_back(
+          first_change(section, *best, others_limit_cycle || section.series.size() > 1));
     }
   }
   if (auto text = measure_friction(section); inertia_matters && !text.empty()) {
@@ -167,24 +170,27 @@ namespace {
 
 // The one controller that every command recommends for the motors as built.
 std::string recommended_first(const design::TuningStudy& study) {
-  const TunedLaw* law = recommended_law(study);
-  if (law == nullptr) return "No controller is recommended: no tuned controller is fit.";
-  const bool simulated = law->in_time && std::isfinite(law->in_time->rms());
-  if (simulated && law->in_time->expected) {
-    const auto& expected = *law->in_time->expected;
+  const TunedController* controller = recommended_tuned_controller(study);
+  if (controller == nullptr) return "No controller is recommended: no tuned controller is fit.";
+  const bool simulated = controller->in_time && std::isfinite(controller->in_time->rms());
+  if (simulated && controller->in_time->expected) {
+    const auto& expected = *controller->in_time->expected;
     return fmt::format(
         "Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, simulated ({}).",
-        name_and_purpose(*law), mdeg(expected.rms.value), law->wind_speed,
-        interval_text(expected, law->beam_rms));
+        name_and_purpose(*controller), mdeg(expected.rms.value), controller->wind_speed,
+        interval_text(expected, controller->boresight_rms));
   }
   return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
-                     name_and_purpose(*law), mdeg(simulated ? law->in_time->rms() : law->beam_rms),
-                     law->wind_speed,
-                     simulated ? fmt::format("simulated ({:.3f} linear)", mdeg(law->beam_rms))
-                               : std::string("linear plant, not simulated"));
+                     name_and_purpose(*controller),
+                     mdeg(simulated ? controller->in_time->rms() : controller->boresight_rms),
+                     controller->wind_speed,
+                     simulated
+                         ? fmt::format("simulated ({:.3f} linear)", mdeg(controller->boresight_rms))
+                         : std::string("linear plant, not simulated"));
 }
 
-void add_ties(const design::TuningStudy& study, const TunedLaw* recommended, Sentences& sentences) {
+void add_ties(const design::TuningStudy& study, const TunedController* recommended,
+              Sentences& sentences) {
   if (recommended == nullptr) return;
   if (std::string text = ties_text(study, *recommended); !text.empty()) {
     sentences.push_back(std::move(text));
@@ -195,24 +201,26 @@ void add_ties(const design::TuningStudy& study, const TunedLaw* recommended, Sen
 
 std::vector<std::string> decision(const MatchSection& section) {
   MatchSection kept = section;
-  std::erase_if(kept.series, [&](const MatchSeries& series) { return hunts(section, series); });
+  std::erase_if(kept.series,
+                [&](const MatchSeries& series) { return has_limit_cycle(section, series); });
   std::string motors = decide_motors(section);
   Sentences sentences =
       decide_inertia(kept, kept.series.size() < section.series.size(), !motors.empty());
   if (!motors.empty()) sentences.insert(sentences.begin(), std::move(motors));
   if (section.tuned_as_built) {
     sentences.insert(sentences.begin(), "As built: " + recommended_first(*section.tuned_as_built));
-    add_ties(*section.tuned_as_built, recommended_law(*section.tuned_as_built), sentences);
+    add_ties(*section.tuned_as_built, recommended_tuned_controller(*section.tuned_as_built),
+             sentences);
   }
   for (const auto& series : section.series) {
-    if (!series.best || !hunts(section, series) || kept.series.empty()) continue;
-    const auto runs = hunting_of(section, series);
+    if (!series.best || !has_limit_cycle(section, series) || kept.series.empty()) continue;
+    const auto runs = limit_cycle_of(section, series);
     sentences.push_back(fmt::format(
         "Not {}, {:.3f} mdeg on the linear plant: on the nonlinear antenna it {}.", series.name,
-        mdeg(series.values[*series.best].beam_rms),
-        hunting_beyond(section, runs)
+        mdeg(series.values[*series.best].boresight_rms),
+        limit_cycle_beyond(section, runs)
             ? fmt::format("limit-cycles by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
-                          mdeg(design::hunting_amplitude(runs)), mdeg(section.tightest_budget))
+                          mdeg(design::limit_cycle_amplitude(runs)), mdeg(section.tightest_budget))
             : std::string("is not shown free of limit cycles, as a run did not complete")));
   }
   return sentences;
@@ -221,10 +229,12 @@ std::vector<std::string> decision(const MatchSection& section) {
 namespace {
 
 // The eligible candidates that tie with the best, it included, where there are others.
-std::vector<std::string> ties_of(const EvaluateSection& section, const DecisionSection& draws) {
+std::vector<std::string> ties_of(const EvaluateSection& section,
+                                 const DecisionSection& random_samples) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < draws.tied.size(); ++i) {
-    if (draws.tied[i]) names.push_back(section.candidates[draws.candidates[i].candidate].name);
+  for (std::size_t i = 0; i < random_samples.tied.size(); ++i) {
+    if (random_samples.tied[i])
+      names.push_back(section.candidates[random_samples.candidates[i].candidate].name);
   }
   if (names.size() < 2) names.clear();
   return names;
@@ -249,18 +259,19 @@ std::vector<std::string> decision(const EvaluateSection& section) {
   Sentences sentences = unmet_needs(section);
   const std::string none = none_chosen(section);
   if (section.decision && !section.candidates.empty()) {
-    const DecisionSection& draws = *section.decision;
-    const std::size_t choice = draws.worth;
-    const auto& place = draws.candidates[choice];
+    const DecisionSection& random_samples = *section.decision;
+    const std::size_t choice = random_samples.worth;
+    const auto& place = random_samples.candidates[choice];
     const Candidate& chosen = section.candidates[place.candidate];
-    const Candidate& best = section.candidates[draws.candidates[draws.best].candidate];
+    const Candidate& best =
+        section.candidates[random_samples.candidates[random_samples.best].candidate];
     const std::string currency = section.currency.empty() ? "of cost" : section.currency;
-    const auto& ranking = draws.ranking;
-    const std::string mean =
-        fmt::format("{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s, {}", ranking.losses[choice],
-                    measure_phrase(ranking.measure),
-                    ranking.measure == design::LossMeasure::mean ? "over" : "of", draws.draws,
-                    section.wind_speed, section.time_domain ? "simulated" : "linear");
+    const auto& ranking = random_samples.ranking;
+    const std::string mean = fmt::format(
+        "{:.3f} mdeg rms {} {} {} samples in {:.3g} m/s, {}", ranking.losses[choice],
+        measure_phrase(ranking.measure),
+        ranking.measure == design::LossMeasure::mean ? "over" : "of", random_samples.random_samples,
+        section.wind_speed, section.time_domain ? "simulated" : "linear");
     const bool fit = chosen.feasible();
     const std::string yet = none.empty() ? "Choose nothing yet." : none;
     std::string text =
@@ -272,20 +283,21 @@ std::vector<std::string> decision(const EvaluateSection& section) {
             : fmt::format("Choose {}: {}, {}", chosen.name, mean,
                           chosen.cost ? fmt::format("at {:g} {}", *chosen.cost, currency)
                                       : std::string("at a cost that its file does not state"));
-    if (fit && choice != draws.best && best.feasible()) {
-      text += fmt::format("; {} would be only {:.1f} % better{}", best.name,
-                          100.0 * (1.0 - ranking.losses[draws.best] / ranking.losses[choice]),
-                          best.cost ? fmt::format(" for {:g} {}", *best.cost, currency) : "");
+    if (fit && choice != random_samples.best && best.feasible()) {
+      text +=
+          fmt::format("; {} would be only {:.1f} % better{}", best.name,
+                      100.0 * (1.0 - ranking.losses[random_samples.best] / ranking.losses[choice]),
+                      best.cost ? fmt::format(" for {:g} {}", *best.cost, currency) : "");
     }
     sentences.push_back(text + ".");
-    const auto hunting = hunting_candidates(section);
-    if (none.empty() && !hunting.empty()) {
+    const auto limit_cycles = limit_cycle_candidates(section);
+    if (none.empty() && !limit_cycles.empty()) {
       sentences.push_back(
           fmt::format("Excluded, as they limit-cycle beyond the tightest budget: {}.",
-                      fmt::join(hunting, ", ")));
+                      fmt::join(limit_cycles, ", ")));
     }
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;
-    const auto ties = ties_of(section, draws);
+    const auto ties = ties_of(section, random_samples);
     if (all_alike(section, ties)) {
       sentences.push_back(
           fmt::format("All eligible proposals tie, within {}: choose by their "
@@ -300,30 +312,32 @@ std::vector<std::string> decision(const EvaluateSection& section) {
           fmt::format("{} violates a constraint on a fraction of {:.3f} of the samples.", name,
                       place.outside_goals.value));
     }
-    if (auto cause = law_or_hardware(section, draws, choice); fit && !cause.empty()) {
+    if (auto cause = controller_or_hardware(section, random_samples, choice);
+        fit && !cause.empty()) {
       sentences.push_back(std::move(cause));
     }
   } else if (section.candidates.size() == 1 && section.candidates.front().chosen) {
     const Candidate& only = section.candidates.front();
-    const CandidateLaw& law = only.laws[*only.chosen];
-    if (!std::isfinite(law.compared_rms())) return sentences;
+    const CandidateController& controller = only.controllers[*only.chosen];
+    if (!std::isfinite(controller.compared_rms())) return sentences;
     sentences.push_back(
         fmt::format("No proposal to compare: {} has {:.3f} mdeg rms over {} plant models in "
                     "{:.3g} m/s with {} (robust){}.",
                     only.path.empty() ? "the antenna " + only.name : only.name,
-                    mdeg(law.compared_rms()), section.ensemble_size, section.wind_speed,
-                    law.structure, law.usable() ? "" : ", which is not eligible"));
+                    mdeg(controller.compared_rms()), section.ensemble_size, section.wind_speed,
+                    controller.structure, controller.usable() ? "" : ", which is not eligible"));
   }
   std::string front;
   double before = HUGE_VAL;
   for (const std::size_t i : section.front) {
     const Candidate& candidate = section.candidates[i];
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || law->compared_rms() > (1.0 - negligible_change) * before) continue;
-    before = law->compared_rms();
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr || controller->compared_rms() > (1.0 - negligible_change) * before)
+      continue;
+    before = controller->compared_rms();
     if (candidate.path.empty() || !candidate.cost) continue;
     front += fmt::format("{}{} ({:g} {}, {:.3f} mdeg)", front.empty() ? "" : ", ", candidate.name,
-                         *candidate.cost, section.currency, mdeg(law->compared_rms()));
+                         *candidate.cost, section.currency, mdeg(controller->compared_rms()));
   }
   if (!front.empty()) {
     sentences.push_back(
@@ -336,7 +350,7 @@ std::vector<std::string> decision(const EvaluateSection& section) {
 std::vector<std::string> decision(const TuneSection& section,
                                   const std::optional<TimeDomainSection>& time_domain,
                                   const std::optional<design::PointingLimit>& limit) {
-  const TunedLaw* best = best_law(section);
+  const TunedController* best = best_controller(section);
   Sentences sentences{recommended_first(section)};
   std::ranges::move(unstable_now(section), std::back_inserter(sentences));
   if (best == nullptr) {
@@ -345,14 +359,14 @@ std::vector<std::string> decision(const TuneSection& section,
   }
   std::string text =
       fmt::format("On the linear plant {} is best, with {:.3f} mdeg rms in {:.3g} m/s, {}",
-                  best->structure, mdeg(best->beam_rms), best->wind_speed,
+                  best->structure, mdeg(best->boresight_rms), best->wind_speed,
                   best->tuned_for == TunedFor::robust
                       ? fmt::format("constraints met on each of {} plants", section.ensemble_size)
                       : std::string("constraints met on the nominal plant only"));
-  const TunedLaw* recommended = recommended_law(section);
+  const TunedController* recommended = recommended_tuned_controller(section);
   if (!section.budgets.empty() && recommended != nullptr && !recommended->speed_limits.empty()) {
     const double by_wind = recommended->speed_limits.front();
-    const double limit_speed = std::min(by_wind, section.supply_wind_speed);
+    const double limit_speed = std::min(by_wind, section.torque_limited_wind_speed);
     text += fmt::format(
         "; {} meets {} ({}) up to {}{}{}",
         recommended == best
@@ -380,11 +394,11 @@ std::vector<std::string> decision(const TuneSection& section,
     }
   }
   add_ties(section, recommended, sentences);
-  if (limit && limit->least_rms > 0.0) {
+  if (limit && limit->min_rms > 0.0) {
     sentences.push_back(
         fmt::format("Lower bound with these sensors, sampling and control effort: {:.3f} mdeg on "
                     "the nominal plant; less requires other hardware.",
-                    mdeg(limit->least_rms)));
+                    mdeg(limit->min_rms)));
   }
   return sentences;
 }

@@ -12,8 +12,8 @@
 namespace boresight::app {
 namespace {
 
-using design::Consequence;
 using design::DepartingForm;
+using design::DerivedQuantity;
 using design::Finding;
 using design::FindingKind;
 
@@ -45,10 +45,11 @@ void append_finding(Document& page, const Finding& finding, std::size_t number) 
   }
   for (const std::string& evidence : finding.evidence) page += wrapped(evidence, "    ", "  ");
   std::vector<std::string> moved;
-  for (const Consequence& consequence : finding.consequences) {
-    if (std::abs(consequence.relative_change()) < change_worth_telling) continue;
-    moved.push_back(fmt::format("{} {:.4g} for {:.4g} ({})", consequence.id, consequence.as_printed,
-                                consequence.as_corrected, percent(consequence.relative_change())));
+  for (const DerivedQuantity& derived_quantity : finding.derived_quantities) {
+    if (std::abs(derived_quantity.relative_change()) < change_worth_telling) continue;
+    moved.push_back(fmt::format("{} {:.4g} for {:.4g} ({})", derived_quantity.id,
+                                derived_quantity.as_printed, derived_quantity.as_corrected,
+                                percent(derived_quantity.relative_change())));
   }
   if (!moved.empty())
     page += wrapped(fmt::format("changes {}", fmt::join(moved, ", ")), "    ", "  ");
@@ -68,8 +69,9 @@ void append_group(Document& page, const AuditReport& report, std::string_view ti
 }
 
 double largest_change(const Finding& finding) {
-  return finding.consequences.empty() ? 0.0
-                                      : std::abs(finding.consequences.front().relative_change());
+  return finding.derived_quantities.empty()
+             ? 0.0
+             : std::abs(finding.derived_quantities.front().relative_change());
 }
 
 bool follows_from_other_column(const Finding& finding) {
@@ -121,9 +123,9 @@ std::string moved_results(const AuditReport& report) {
   for (const Finding* finding : matter) {
     const std::string& number = finding->forms.front().text;
     if (!named.emplace(finding->id, number).second) continue;
-    const Consequence& most = finding->consequences.front();
-    moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, number, most.id,
-                                percent(most.relative_change())));
+    const DerivedQuantity& maximum = finding->derived_quantities.front();
+    moved.push_back(fmt::format("{} '{}' ({} {})", finding->id, number, maximum.id,
+                                percent(maximum.relative_change())));
   }
   return fmt::format(" Correct those that change a headline result by more than 0.1 %: {}.",
                      fmt::join(moved, "; "));

@@ -26,7 +26,7 @@ std::string with_unit(const std::string& name, const ShownUnit& unit) {
   return unit.name == "1" ? name : fmt::format("{}, {}", name, unit.name);
 }
 
-Document reconciled_part(const io::CampaignSection& section) {
+Document combined_part(const io::CampaignSection& section) {
   if (section.mean_of_methods) {
     const auto& mean = *section.mean_of_methods;
     return wrapped(
@@ -151,7 +151,7 @@ Document friction_part(const io::CampaignSection& section) {
              "interval", ""}};
   for (const auto& row : section.friction) {
     std::vector<std::string> cells{fmt::format("{:.3f}", row.rate)};
-    for (const auto* interval : {&row.reconciled, &row.curve, &row.tested}) {
+    for (const auto* interval : {&row.combined, &row.curve, &row.tested}) {
       cells.push_back(*interval ? significant((*interval)->value) : "-");
       cells.push_back(*interval ? range(**interval) : "-");
     }
@@ -304,7 +304,7 @@ Document document_of(const io::CampaignSection& section) {
     text += essential(wrapped(sentence, "  ", "  "));
   }
   if (!section.not_identifiable.empty()) text += "\n";
-  text += reconciled_part(section);
+  text += combined_part(section);
   text += methods_part(section);
   text += quantities_part(section);
   for (const auto& test : section.slosh) text += lines_part(test);

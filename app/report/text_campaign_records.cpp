@@ -80,8 +80,8 @@ Document document_of(const io::CampaignNotes& notes) {
     if (!record.refusal.empty()) {
       text += wrapped(fmt::format("{} is not used: {}", record.name, record.refusal), "  ", "  ");
     }
-    constexpr std::size_t most = 10;
-    for (std::size_t i = 0; i < record.defects.size() && i < most; ++i) {
+    constexpr std::size_t maximum = 10;
+    for (std::size_t i = 0; i < record.defects.size() && i < maximum; ++i) {
       const auto& defect = record.defects[i];
       text += wrapped(
           fmt::format("{}{}{}, {} from {:.3f} s, {} samples, {}: {}", record.name,
@@ -90,9 +90,9 @@ Document document_of(const io::CampaignNotes& notes) {
                       identification::to_string(defect.handling), defect.explanation),
           "  ", "  ");
     }
-    if (record.defects.size() > most) {
+    if (record.defects.size() > maximum) {
       text += wrapped(fmt::format("{}: {} more, all of them in the JSON report", record.name,
-                                  record.defects.size() - most),
+                                  record.defects.size() - maximum),
                       "  ");
     }
   }

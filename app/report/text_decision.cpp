@@ -23,7 +23,7 @@ std::string fixed(double value, int decimals) {
              : text;
 }
 
-std::string share(const design::Probability& probability) {
+std::string fraction(const design::Probability& probability) {
   return fmt::format("{:.3f} [{:.3f}, {:.3f}]", probability.value, probability.lower,
                      probability.upper);
 }
@@ -50,13 +50,13 @@ Document chances_table(const EvaluateSection& section, const DecisionSection& de
     std::vector<std::string> cells{section.candidates[one.candidate].name,
                                    fixed(statistics.mean, 4), fixed(statistics.standard_error, 4)};
     for (const auto& quantile : statistics.quantiles) cells.push_back(fixed(quantile.value, 4));
-    cells.push_back(share(statistics.best));
+    cells.push_back(fraction(statistics.best));
     cells.push_back(fixed(statistics.expected_regret, 4));
     cells.push_back(fixed(statistics.regret_error, 4));
-    cells.push_back(std::isnan(decision.front_shares[i]) ? "-"
-                                                         : fixed(decision.front_shares[i], 3));
-    cells.push_back(share(one.outside_goals));
-    cells.push_back(share(one.unstable));
+    cells.push_back(
+        std::isnan(decision.front_fractions[i]) ? "-" : fixed(decision.front_fractions[i], 3));
+    cells.push_back(fraction(one.outside_goals));
+    cells.push_back(fraction(one.unstable));
     rows.push_back(std::move(cells));
   }
   const auto counted = unfit_but_counted(section, decision);
@@ -79,8 +79,8 @@ Document pairs_table(const EvaluateSection& section, const DecisionSection& deci
     const auto dominance = turned ? pair.second_over_first : pair.first_over_second;
     rows.push_back({name(turned ? pair.second : pair.first),
                     name(turned ? pair.first : pair.second),
-                    turned ? share({1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower})
-                           : share(better),
+                    turned ? fraction({1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower})
+                           : fraction(better),
                     fixed((turned ? -1.0 : 1.0) * pair.mean_gain, 4), fixed(pair.gain_error, 4),
                     std::string(design::to_string(dominance))});
   }
@@ -99,8 +99,9 @@ Document structures_table(const EvaluateSection& section, const DecisionSection&
       const bool turned = better.value < 0.5;
       rows.push_back({name(turned ? pair.second : pair.first),
                       name(turned ? pair.first : pair.second), one.structure,
-                      turned ? share({1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower})
-                             : share(better),
+                      turned
+                          ? fraction({1.0 - better.value, 1.0 - better.upper, 1.0 - better.lower})
+                          : fraction(better),
                       fixed((turned ? -1.0 : 1.0) * one.mean_gain, 4), fixed(one.gain_error, 4)});
     }
   }
@@ -177,7 +178,7 @@ Document tests_table(const EvaluateSection& section, const DecisionSection& deci
 }  // namespace
 
 std::string heading_of(const DecisionSection& decision) {
-  return fmt::format("Probabilities over {} samples, fixed gains", decision.draws);
+  return fmt::format("Probabilities over {} samples, fixed gains", decision.random_samples);
 }
 
 Document document_of(const EvaluateSection& section, const DecisionSection& decision) {

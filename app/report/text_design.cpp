@@ -52,13 +52,13 @@ std::string finite(double value, int decimals) {
 }
 
 Document gains_part(const TuningSection& section) {
-  const auto& law = section.design.tuning.law;
-  const auto& descriptions = control::gain_descriptions(law.structure);
+  const auto& controller = section.design.tuning.controller;
+  const auto& descriptions = control::gain_descriptions(controller.structure);
   std::vector<std::vector<std::string>> rows{{"gain", "value", "unit", "searched"}};
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
+  for (std::size_t i = 0; i < controller.gains.size(); ++i) {
     const auto& gain = descriptions[i];
     rows.push_back({fmt::format("{} {}", gain.symbol, gain.name),
-                    fmt::format("{:.5g}", law.gains[i]), std::string(gain.unit),
+                    fmt::format("{:.5g}", controller.gains[i]), std::string(gain.unit),
                     fmt::format("{:g} .. {:g}", gain.lower, gain.upper)});
   }
   return table(rows);
@@ -113,18 +113,18 @@ Document wind_part(const TuningSection& section) {
 }
 
 std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_view source,
-                          const design::HardGoals& goals) {
+                          const design::Constraints& goals) {
   const auto& worst = ensemble.members[ensemble.worst];
   const double peak = *std::ranges::max_element(worst.sensitivity_peaks);
   return fmt::format(
       "The same gains on {} plants {}: {} stable, {} meet every constraint; rms {} .. {} mdeg, "
       "median {}, 95 % below {}. The worst, {}, {}.",
-      ensemble.members.size(), source, ensemble.stable, ensemble.within_goals,
-      mdeg(ensemble.least_rms), mdeg(ensemble.largest_rms), mdeg(ensemble.median_rms),
+      ensemble.members.size(), source, ensemble.stable, ensemble.within_constraints,
+      mdeg(ensemble.min_rms), mdeg(ensemble.largest_rms), mdeg(ensemble.median_rms),
       mdeg(ensemble.high_rms), worst.name,
       worst.stable
           ? fmt::format("has Ms {:.3f}, limit {:g}, and control effort {:.3f} rad/s, limit {:g}",
-                        peak, goals.sensitivity_peak[0], worst.valve_effort, goals.valve_effort)
+                        peak, goals.sensitivity_peak[0], worst.control_effort, goals.control_effort)
           : "is unstable");
 }
 
@@ -146,9 +146,9 @@ Document present_part(const TuningSection& section) {
       cells.insert(cells.end(), 5, "-");
       cells.emplace_back("UNSTABLE");
     } else {
-      cells.push_back(mdeg(design.beam_rms));
+      cells.push_back(mdeg(design.boresight_rms));
       for (const auto& peak : design.verification.peaks) cells.push_back(finite(peak.upper, 3));
-      cells.push_back(fmt::format("{:.3f}", design.valve_effort));
+      cells.push_back(fmt::format("{:.3f}", design.control_effort));
       cells.push_back(design.verification.passed ? "ok" : design.verification.failure);
     }
     rows.push_back(std::move(cells));
@@ -211,22 +211,23 @@ Document document_of(const TuningSection& section) {
     text += essential(
         wrapped(fmt::format("INFEASIBLE: no controller found meets every constraint. Shown is the "
                             "nearest; it exceeds its worst limit by {:.3g} %.",
-                            100.0 * (design.tuning.worst_goal_ratio - 1.0)),
+                            100.0 * (design.tuning.worst_constraint - 1.0)),
                 "  "));
   }
   text += essential(gains_part(section) + "\n" + breaks_part(section) + "\n");
-  text += wrapped(fmt::format("Rms {} mdeg at the sky (wind {}, sensor noise {}); control effort "
-                              "{:.3f} rad/s, limit {:g}. Active constraints: {}.{}",
-                              mdeg(design.beam_rms), mdeg(design.wind_rms), mdeg(design.noise_rms),
-                              design.valve_effort, section.goals.valve_effort,
-                              design.tuning.active_goals.empty()
-                                  ? "none"
-                                  : fmt::format("{}", fmt::join(design.tuning.active_goals, "; ")),
-                              design.tuning.gains_at_bound.empty()
-                                  ? ""
-                                  : fmt::format(" At the search limit: {}.",
-                                                fmt::join(design.tuning.gains_at_bound, ", "))),
-                  "  ");
+  text += wrapped(
+      fmt::format("Rms {} mdeg at the sky (wind {}, sensor noise {}); control effort "
+                  "{:.3f} rad/s, limit {:g}. Active constraints: {}.{}",
+                  mdeg(design.boresight_rms), mdeg(design.wind_rms), mdeg(design.noise_rms),
+                  design.control_effort, section.goals.control_effort,
+                  design.tuning.active_constraints.empty()
+                      ? "none"
+                      : fmt::format("{}", fmt::join(design.tuning.active_constraints, "; ")),
+                  design.tuning.gains_at_bound.empty()
+                      ? ""
+                      : fmt::format(" At the search limit: {}.",
+                                    fmt::join(design.tuning.gains_at_bound, ", "))),
+      "  ");
   text += wrapped(
       fmt::format("{}: largest real part of the eigenvalues {:.4f} 1/s (position loop open) and "
                   "{:.4f} 1/s (closed); the rational dead time omits {:.1e} of the return "
@@ -238,7 +239,7 @@ Document document_of(const TuningSection& section) {
       "  ");
   std::string seeds;
   for (const auto& seed : section.seeds) {
-    seeds += fmt::format("{}{}{}", seeds.empty() ? "" : ", ", mdeg(seed.beam_rms),
+    seeds += fmt::format("{}{}{}", seeds.empty() ? "" : ", ", mdeg(seed.boresight_rms),
                          seed.verified ? "" : " (not verified)");
   }
   text += wrapped(fmt::format("From {} seeds: {} mdeg; {} of them within 1 % of the best.",
@@ -251,9 +252,10 @@ Document document_of(const TuningSection& section) {
         "\n";
   std::vector<std::vector<std::string>> rows{{"wind model, same gains", "rms mdeg"}};
   for (const auto& alternative : section.wind_alternatives) {
-    rows.push_back({std::string(plant::to_string(alternative.model)), mdeg(alternative.beam_rms)});
+    rows.push_back(
+        {std::string(plant::to_string(alternative.model)), mdeg(alternative.boresight_rms)});
   }
-  rows.push_back({"structural flexure beyond the encoder alone", mdeg(section.encoder_held_rms)});
+  rows.push_back({"structural flexure beyond the encoder alone", mdeg(section.flexure_rms)});
   rows.push_back(
       {"static deflection in the mean wind (not in the rms)", mdeg(section.static_bending)});
   text += table(rows) + wind_part(section) + "\n";
@@ -300,10 +302,10 @@ Document document_of(const TuningSection& section) {
     }
   }
   text += essential(table(rows, "lllrrrrrr"));
-  if (std::isfinite(section.supply_wind_speed)) {
+  if (std::isfinite(section.torque_limited_wind_speed)) {
     text += wrapped(fmt::format("Fixed gains, supply torque ignored: at {:.1f} m/s the mean wind "
                                 "takes all of it that friction and offset leave.",
-                                section.supply_wind_speed),
+                                section.torque_limited_wind_speed),
                     "  ");
   }
   if (climate) {
@@ -317,8 +319,8 @@ Document document_of(const TuningSection& section) {
   return text + effects_part(section);
 }
 
-std::string choices_heading(const std::vector<ChoiceResult>& choices) {
-  return std::ranges::any_of(choices, &ChoiceResult::contradicts)
+std::string interpretations_heading(const std::vector<InterpretationResult>& interpretations) {
+  return std::ranges::any_of(interpretations, &InterpretationResult::contradicts)
              ? "Contradictory inputs: result of each interpretation"
              : "Open inputs: result of each interpretation";
 }
@@ -343,10 +345,10 @@ Document overdamped_part() {
 }
 
 // Choices made for rigid masses, with which the flexible antenna does not resonate as measured.
-Document missed_part(const std::vector<ChoiceResult>& choices) {
+Document missed_part(const std::vector<InterpretationResult>& interpretations) {
   std::vector<std::string> missed;
   double wanted = 0.0;
-  for (const auto& choice : choices) {
+  for (const auto& choice : interpretations) {
     const auto frequency = choice.missed_resonance();
     if (!frequency) continue;
     wanted = choice.wanted_frequency.value_or(wanted);
@@ -361,11 +363,11 @@ Document missed_part(const std::vector<ChoiceResult>& choices) {
 
 }  // namespace
 
-Document document_of(const std::vector<ChoiceResult>& choices) {
-  Document text = heading(choices_heading(choices));
+Document document_of(const std::vector<InterpretationResult>& interpretations) {
+  Document text = heading(interpretations_heading(interpretations));
   std::vector<std::vector<std::string>> rows{{"interpretation", "K N.m/rad", "J kg.m2", "R",
                                               "hydraulic Hz", "damping", "rms mdeg", "verified"}};
-  for (const auto& choice : choices) {
+  for (const auto& choice : interpretations) {
     std::vector<std::string> row{choice.name, fmt::format("{:.2f}", choice.oil_stiffness),
                                  fmt::format("{:.3f}", choice.reflected_inertia),
                                  choice.motor_to_load_ratio > 0.0
@@ -375,32 +377,33 @@ Document document_of(const std::vector<ChoiceResult>& choices) {
       const Design& design = *choice.design;
       row.insert(row.end(), {fmt::format("{:.3f}", design.hydraulic_mode.frequency),
                              fmt::format("{:.3f}", design.hydraulic_mode.damping_ratio),
-                             mdeg(design.beam_rms), verdict(design)});
+                             mdeg(design.boresight_rms), verdict(design)});
     } else {
       row.insert(row.end(), {"-", "-", "-", "no plant"});
     }
     rows.push_back(std::move(row));
   }
   text += table(rows);
-  for (const auto& choice : choices) {
+  for (const auto& choice : interpretations) {
     text += wrapped(
         fmt::format(
             "{}: {}.{}", choice.name, choice.says,
             choice.impossible.empty() ? "" : fmt::format(" Not possible: {}.", choice.impossible)),
         "  ");
   }
-  const bool attitudes = std::ranges::any_of(choices, &ChoiceResult::other_attitude);
+  const bool attitudes =
+      std::ranges::any_of(interpretations, &InterpretationResult::other_attitude);
   text +=
       wrapped(fmt::format("Structural frequencies stay fixed, so a lighter antenna is softer{}.",
                           attitudes ? ", except in an alternative that keeps the springs" : ""),
               "  ");
   text += linear_part();
-  if (std::ranges::any_of(choices, [](const ChoiceResult& choice) {
+  if (std::ranges::any_of(interpretations, [](const InterpretationResult& choice) {
         return choice.design && overdamped(*choice.design);
       })) {
     text += overdamped_part();
   }
-  return text + missed_part(choices);
+  return text + missed_part(interpretations);
 }
 
 Document document_of(const MatchingSection& section) {
@@ -433,7 +436,7 @@ Document document_of(const MatchingSection& section) {
           cells.push_back(fmt::format("{:.1f}", design.margins[loop].phase_margin_deg));
           cells.push_back(decibel(design.margins[loop].increasing_gain_margin));
         }
-        cells.push_back(mdeg(design.beam_rms));
+        cells.push_back(mdeg(design.boresight_rms));
       }
       cells.push_back(verdict(design));
       rows.push_back(std::move(cells));

@@ -7,7 +7,7 @@
 
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/report/evaluate_report.hpp>
-#include <boresight/app/report/hunting_wording.hpp>
+#include <boresight/app/report/limit_cycle_wording.hpp>
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
@@ -35,10 +35,10 @@ std::string speed(double limit) {
 
 std::string verdict(const Candidate& candidate) {
   if (!candidate.chosen) return "none stable";
-  const auto& law = candidate.laws[*candidate.chosen];
-  if (!law.goals_met) return "misses constraints";
-  if (!law.still) return "LIMIT CYCLE";
-  return law.design.verification.passed ? "verified" : "NOT VERIFIED";
+  const auto& controller = candidate.controllers[*candidate.chosen];
+  if (!controller.constraints_met) return "misses constraints";
+  if (!controller.limit_cycle_free) return "LIMIT CYCLE";
+  return controller.design.verification.passed ? "verified" : "NOT VERIFIED";
 }
 
 std::string cost_text(const Candidate& candidate) {
@@ -53,26 +53,26 @@ void fill(std::vector<std::string>& cells, std::size_t columns) {
   cells.resize(std::max(cells.size(), columns), "-");
 }
 
-std::string simulated_text(const CandidateLaw& law) {
-  if (!law.time_domain) return "-";
-  const auto& wind = law.time_domain->wind;
-  const design::RunStatus status = law.expected ? law.expected->status : wind.status;
+std::string simulated_text(const CandidateController& controller) {
+  if (!controller.time_domain) return "-";
+  const auto& wind = controller.time_domain->wind;
+  const design::RunStatus status = controller.expected ? controller.expected->status : wind.status;
   if (status != design::RunStatus::complete) return std::string(design::to_string(status));
-  return mdeg(law.expected ? law.expected->rms.value : wind.beam_rms);
+  return mdeg(controller.expected ? controller.expected->rms.value : wind.boresight_rms);
 }
 
 // "4 to 10 records of wind": what the simulated rms are of.
 std::string records_text(const EvaluateSection& section) {
   std::vector<int> records;
   for (const auto& candidate : section.candidates) {
-    for (const auto& law : candidate.laws) {
-      if (law.expected) records.push_back(law.expected->records);
+    for (const auto& controller : candidate.controllers) {
+      if (controller.expected) records.push_back(controller.expected->records);
     }
   }
   if (records.empty()) return "one record of wind";
-  const auto [least, most] = std::ranges::minmax(records);
-  return least == most ? fmt::format("{} records of wind", most)
-                       : fmt::format("{} to {} records of wind", least, most);
+  const auto [minimum, maximum] = std::ranges::minmax(records);
+  return minimum == maximum ? fmt::format("{} records of wind", maximum)
+                            : fmt::format("{} to {} records of wind", minimum, maximum);
 }
 
 Document time_domain_table(const EvaluateSection& section) {
@@ -80,16 +80,18 @@ Document time_domain_table(const EvaluateSection& section) {
   Rows rows{{"proposal", "loops", "linear mdeg", "simulated", "factor", "limit cycle at rest",
              "when tracking", "reversal error"}};
   for (const auto& candidate : section.candidates) {
-    for (const auto& law : candidate.laws) {
-      if (!law.time_domain) continue;
-      const auto& run = *law.time_domain;
-      std::vector<std::string> cells{candidate.name, law.structure, mdeg(law.design.beam_rms),
-                                     simulated_text(law), fixed(law.nonlinear_factor(), 3)};
-      for (const auto& hunting : run.hunting) cells.push_back(hunting_cell(hunting));
+    for (const auto& controller : candidate.controllers) {
+      if (!controller.time_domain) continue;
+      const auto& run = *controller.time_domain;
+      std::vector<std::string> cells{
+          candidate.name, controller.structure, mdeg(controller.design.boresight_rms),
+          simulated_text(controller), fixed(controller.simulated_to_linear_rms(), 3)};
+      for (const auto& limit_cycles : run.limit_cycles)
+        cells.push_back(limit_cycle_cell(limit_cycles));
       if (run.reversal) {
         cells.resize(7, "-");
         cells.push_back(run.reversal->status == design::RunStatus::complete
-                            ? mdeg(run.reversal->beam_error)
+                            ? mdeg(run.reversal->boresight_error)
                             : std::string(design::to_string(run.reversal->status)));
       }
       fill(cells, rows[0].size());
@@ -107,7 +109,7 @@ Document time_domain_table(const EvaluateSection& section) {
                  section.time_domain->seeds.front()),
              "  ") +
          "\n" + table(rows, "ll") +
-         wrapped(hunting_legend() +
+         wrapped(limit_cycle_legend() +
                      "; reversal error: peak boresight error (mdeg) at a velocity reversal at "
                      "tracking rate.",
                  "  ");
@@ -117,11 +119,12 @@ Document time_domain_table(const EvaluateSection& section) {
 Document oil_modes_part(const EvaluateSection& section) {
   std::vector<std::string> modes;
   for (const auto& candidate : section.candidates) {
-    const CandidateLaw* law = candidate.chosen_law();
-    const plant::PlantMode& most = candidate.oil_mode;
-    if (law == nullptr || !io::little_of_oil(law->design.hydraulic_mode, most)) continue;
+    const CandidateController* controller = candidate.chosen_controller();
+    const plant::PlantMode& maximum = candidate.oil_mode;
+    if (controller == nullptr || !io::little_of_oil(controller->design.hydraulic_mode, maximum))
+      continue;
     modes.push_back(fmt::format(
-        "{:.3g} Hz (zeta {:.3f}) {}", most.frequency, most.damping_ratio,
+        "{:.3g} Hz (zeta {:.3f}) {}", maximum.frequency, maximum.damping_ratio,
         candidate.path.empty() ? candidate.name : "with " + io::in_quotes(candidate.name)));
   }
   if (modes.empty()) return {};
@@ -141,21 +144,23 @@ Document loop_table(const EvaluateSection& section) {
                                    fixed(candidate.reflected_inertia, 3),
                                    fixed(candidate.motor_to_load_ratio, 2)};
     if (candidate.chosen) {
-      const auto& law = candidate.laws[*candidate.chosen];
-      cells[1] = law.structure;
-      cells.push_back(fixed(law.design.hydraulic_mode.frequency, 3));
-      cells.push_back(fixed(law.design.hydraulic_mode.damping_ratio, 3));
-      const double factor = law.nonlinear_factor();
-      cells.push_back(mdeg(law.design.beam_rms));
+      const auto& controller = candidate.controllers[*candidate.chosen];
+      cells[1] = controller.structure;
+      cells.push_back(fixed(controller.design.hydraulic_mode.frequency, 3));
+      cells.push_back(fixed(controller.design.hydraulic_mode.damping_ratio, 3));
+      const double factor = controller.simulated_to_linear_rms();
+      cells.push_back(mdeg(controller.design.boresight_rms));
       if (simulated) {
-        cells.push_back(simulated_text(law));
+        cells.push_back(simulated_text(controller));
         cells.push_back(fixed(factor, 3));
       }
-      cells.push_back(mdeg(law.compared_rms()));
-      if (law.ensemble) {
-        const bool all = law.ensemble->stable == static_cast<int>(law.ensemble->members.size());
-        cells.push_back(all ? mdeg(law.effect().rms(law.ensemble->largest_rms)) : "unstable");
-        cells.push_back(law.ensemble->members[law.ensemble->worst].name);
+      cells.push_back(mdeg(controller.compared_rms()));
+      if (controller.ensemble) {
+        const bool all =
+            controller.ensemble->stable == static_cast<int>(controller.ensemble->members.size());
+        cells.push_back(all ? mdeg(controller.effect().rms(controller.ensemble->largest_rms))
+                            : "unstable");
+        cells.push_back(controller.ensemble->members[controller.ensemble->worst].name);
       }
     }
     fill(cells, rows[0].size() - 1);
@@ -183,9 +188,9 @@ Document loop_table(const EvaluateSection& section) {
 // "24/30": plants on which the candidate's law meets a budget where it is needed.
 std::string plants_text(const EvaluateSection& section, const Candidate& candidate,
                         std::size_t budget) {
-  const CandidateLaw* law = candidate.chosen_law();
-  if (law == nullptr || budget >= law->budgets_met.size()) return "-";
-  const auto& met = law->budgets_met[budget];
+  const CandidateController* controller = candidate.chosen_controller();
+  if (controller == nullptr || budget >= controller->budgets_met.size()) return "-";
+  const auto& met = controller->budgets_met[budget];
   return met ? fmt::format("{}/{}", *met, section.ensemble_size) : "-";
 }
 
@@ -275,14 +280,14 @@ Document changes_part(const EvaluateSection& section) {
     text += "\n" + wrapped(fmt::format("{} ({}): {}", candidate.name, candidate.path,
                                        candidate.description),
                            "  ", "  ");
-    if (!candidate.changes.empty() || !candidate.consequences.empty()) {
+    if (!candidate.changes.empty() || !candidate.derived_quantities.empty()) {
       Rows rows{{"changes", "from", "to", "because"}};
       for (const auto& change : candidate.changes) {
         rows.push_back(
             {change.key, change.before, change.after,
              change.basis == io::Basis::assumed ? "assumed: " + change.source : change.source});
       }
-      for (const auto& one : candidate.consequences) {
+      for (const auto& one : candidate.derived_quantities) {
         const std::string unit = one.unit == "1" ? "" : " " + one.unit;
         const std::string before = fmt::format("{:.5g}{}", one.before, unit);
         const std::string after = fmt::format("{:.5g}{}", one.after, unit);
@@ -297,25 +302,25 @@ Document changes_part(const EvaluateSection& section) {
   return text;
 }
 
-Document laws_part(const EvaluateSection& section) {
+Document controllers_part(const EvaluateSection& section) {
   Rows rows{{"proposal", "loops", "rms mdeg", "linear over plants", "constraints met", "S rate",
              "S valve", "S pos.", "effort rad/s", "starts", "gains"}};
   for (const auto& candidate : section.candidates) {
-    for (std::size_t i = 0; i < candidate.laws.size(); ++i) {
-      const CandidateLaw& law = candidate.laws[i];
-      std::vector<std::string> cells{candidate.name, law.structure};
-      if (law.stable() && law.ensemble) {
-        cells.push_back(mdeg(law.design.beam_rms));
-        cells.push_back(mdeg(law.member_rms));
-        cells.push_back(
-            fmt::format("{}/{}", law.ensemble->within_goals, law.ensemble->members.size()));
-        for (const auto& peak : law.design.verification.peaks) {
+    for (std::size_t i = 0; i < candidate.controllers.size(); ++i) {
+      const CandidateController& controller = candidate.controllers[i];
+      std::vector<std::string> cells{candidate.name, controller.structure};
+      if (controller.stable() && controller.ensemble) {
+        cells.push_back(mdeg(controller.design.boresight_rms));
+        cells.push_back(mdeg(controller.member_rms));
+        cells.push_back(fmt::format("{}/{}", controller.ensemble->within_constraints,
+                                    controller.ensemble->members.size()));
+        for (const auto& peak : controller.design.verification.peaks) {
           cells.push_back(fixed(peak.upper, 3));
         }
-        cells.push_back(fixed(law.design.valve_effort, 3));
-        cells.push_back(
-            fmt::format("{}/{}", law.design.tuning.starts_at_optimum, law.design.tuning.starts));
-        const auto& gains = law.design.tuning.law.structure.gains();
+        cells.push_back(fixed(controller.design.control_effort, 3));
+        cells.push_back(fmt::format("{}/{}", controller.design.tuning.starts_at_optimum,
+                                    controller.design.tuning.starts));
+        const auto& gains = controller.design.tuning.controller.structure.gains();
         const auto& written = candidate.gains.at(i);
         std::string list;
         for (std::size_t k = 0; k < written.size(); ++k) {
@@ -359,10 +364,10 @@ Document document_of(const EvaluateSection& section) {
   std::vector<std::string> names;
   for (const std::size_t i : section.front) {
     const auto& candidate = section.candidates[i];
-    const CandidateLaw* law = candidate.chosen_law();
-    if (law == nullptr || !candidate.cost) continue;
+    const CandidateController* controller = candidate.chosen_controller();
+    if (controller == nullptr || !candidate.cost) continue;
     names.push_back(fmt::format("{} ({:g}, {} mdeg)", candidate.name, *candidate.cost,
-                                mdeg(law->compared_rms())));
+                                mdeg(controller->compared_rms())));
   }
   if (!section.currency.empty()) {
     text += essential(
@@ -375,7 +380,7 @@ Document document_of(const EvaluateSection& section) {
   text += time_domain_table(section);
   if (section.decision) text += document_of(section, *section.decision);
   text += heading("Changes of each proposal and their consequences") + changes_part(section);
-  return text + heading("Loops of each proposal") + laws_part(section);
+  return text + heading("Loops of each proposal") + controllers_part(section);
 }
 
 }  // namespace boresight::app

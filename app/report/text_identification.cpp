@@ -30,7 +30,7 @@ std::string deciding(const PropagatedResult& result) {
   std::string text;
   for (std::size_t i = 0; i < result.contributions.size() && i < 2; ++i) {
     text += fmt::format("{}{} {:.0f} %", i == 0 ? "" : ", ", result.contributions[i].input,
-                        100.0 * result.contributions[i].share);
+                        100.0 * result.contributions[i].fraction);
   }
   return text;
 }
@@ -80,8 +80,8 @@ Document methods_table(const IdentificationSection& section) {
 }
 
 // `without_antenna`: the inertia of motors and gear train; `impulses`: results of impulse tests.
-std::string reconciled_text(const identification::ReconciledInertia& one, double without_antenna,
-                            std::ptrdiff_t impulses) {
+std::string combined_text(const identification::CombinedInertia& one, double without_antenna,
+                          std::ptrdiff_t impulses) {
   const std::string counted = impulses > 1 ? " (the impulse results count as one)" : "";
   const std::string ratio = fmt::format("R = {:.2f}, interval {} .. {}", one.motor_to_load_ratio,
                                         bound(one.ratio_lower, 2), bound(one.ratio_upper, 2));
@@ -132,14 +132,14 @@ Document document_of(const IdentificationSection& section) {
                       "    ");
     }
   }
-  if (section.reconciled) {
+  if (section.combined) {
     const auto& methods = inertia.methods.front();
     const auto impulses = std::ranges::count(inertia.methods, identification::MethodKind::impulse,
                                              &identification::InertiaMethod::kind);
-    text += "\n" + essential(wrapped(reconciled_text(*section.reconciled,
-                                                     methods.reflected_inertia.value -
-                                                         methods.antenna_remainder.value,
-                                                     impulses),
+    text += "\n" + essential(wrapped(combined_text(*section.combined,
+                                                   methods.reflected_inertia.value -
+                                                       methods.antenna_remainder.value,
+                                                   impulses),
                                      "  "));
   }
   text += heading("Inputs of the methods");

@@ -29,10 +29,10 @@ Row cells(const std::string& name, const design::SampledDesign& design) {
   const design::SampledResult& nominal = design.nominal;
   const bool members = !design.members.empty();
   return {name,
-          mdeg(nominal.beam_rms),
+          mdeg(nominal.boresight_rms),
           mdeg(nominal.wind_rms),
           mdeg(nominal.noise_rms),
-          fixed(nominal.valve_effort, 3),
+          fixed(nominal.control_effort, 3),
           fixed(nominal.peak.magnitude, 3),
           members ? mdeg(design.worst_rms) : "-",
           members ? fmt::format("{}/{}", design.stable_members, design.members.size()) : "-"};
@@ -58,20 +58,20 @@ Document document_of(const design::PointingLimit& limit) {
   if (limit.robustified) {
     rows.push_back(cells("LQG, robust over the plants", limit.robustified->design));
   }
-  for (const auto& law : limit.laws) {
-    rows.push_back(law.design.nominal.stable() ? cells(law.name, law.design)
-                                               : Row{law.name, "unstable"});
+  for (const auto& controller : limit.controllers) {
+    rows.push_back(controller.design.nominal.stable() ? cells(controller.name, controller.design)
+                                                      : Row{controller.name, "unstable"});
   }
   for (Row& row : rows) row.resize(rows.front().size(), "-");
   text += essential(table(rows, "l"));
   text += wrapped(fmt::format("Lower bound: {} mdeg, of any linear controller with the same "
                               "sensors, sampling and delay and a control effort of at most {:g} "
                               "rad/s. The unconstrained LQG reaches it; the others are benchmarks.",
-                              mdeg(limit.least_rms), limit.effort_limit),
+                              mdeg(limit.min_rms), limit.effort_limit),
                   "  ");
   text += wrapped(fmt::format("Structural flexure beyond the encoder alone: {} mdeg. Full state "
                               "known exactly at each sample, effort free: {} mdeg.",
-                              mdeg(limit.encoder_held_rms), mdeg(limit.full_information_rms)),
+                              mdeg(limit.flexure_rms), mdeg(limit.full_information_rms)),
                   "  ");
   if (!limit.margin_limited) {
     text +=
@@ -80,13 +80,13 @@ Document document_of(const design::PointingLimit& limit) {
   if (!limit.robustified && !limit.unconstrained.members.empty()) {
     text += wrapped("No LQG of the searched weights meets the constraints on every plant.", "  ");
   }
-  if (limit.laws.empty()) return text;
+  if (limit.controllers.empty()) return text;
   std::vector<Row> ratios{{"rms of controller over", "bound at its effort", "LQG with margins",
                            "robust LQG", "worst: robust LQG", "flexure alone"}};
-  for (const auto& law : limit.laws) {
-    ratios.push_back({law.name, ratio(law.to_least), ratio(law.to_margin_limited),
-                      ratio(law.to_robustified), ratio(law.worst_to_robustified),
-                      ratio(law.to_encoder_held)});
+  for (const auto& controller : limit.controllers) {
+    ratios.push_back({controller.name, ratio(controller.to_min),
+                      ratio(controller.to_margin_limited), ratio(controller.to_robustified),
+                      ratio(controller.worst_to_robustified), ratio(controller.to_flexure)});
   }
   return text + "\n" + table(ratios, "l");
 }

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document.hpp>
-#include <boresight/app/report/hunting_wording.hpp>
+#include <boresight/app/report/limit_cycle_wording.hpp>
 #include <boresight/app/report/match_report.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/io/case/resonating_mode.hpp>
@@ -89,8 +89,8 @@ Document rms_part(const MatchSection& section) {
                                  fmt::format("{:.3f}", point.motor_to_load_ratio)};
     for (const auto& series : section.series) {
       const auto& value = series.values[i];
-      std::string text = mdeg(value.beam_rms);
-      if (!value.found && std::isfinite(value.beam_rms)) text += '!';
+      std::string text = mdeg(value.boresight_rms);
+      if (!value.found && std::isfinite(value.boresight_rms)) text += '!';
       if (series.best == i) text += '*';
       row.push_back(text);
     }
@@ -113,7 +113,7 @@ Document best_part(const MatchSection& section) {
       row.insert(row.end(),
                  {fmt::format("{:.2f}{}", point.disks, series.best_at_end ? " (end)" : ""),
                   fmt::format("{:.2f}", point.motor_to_load_ratio),
-                  mdeg(series.values[*series.best].beam_rms),
+                  mdeg(series.values[*series.best].boresight_rms),
                   fmt::format("{:.1f}..{:.1f}", series.within_1_percent.lowest,
                               series.within_1_percent.highest),
                   fmt::format("{:.1f}..{:.1f}", series.within_5_percent.lowest,
@@ -152,7 +152,7 @@ Document margins_part(const MatchSection& section) {
   for (const auto& series : section.series) {
     for (const std::size_t i : shown_points(section, series)) {
       const auto& value = series.values[i];
-      if (!std::isfinite(value.beam_rms)) continue;
+      if (!std::isfinite(value.boresight_rms)) continue;
       double up = HUGE_VAL, down = 0.0, phase = 180.0, delay = HUGE_VAL;
       for (const auto& margins : value.margins) {
         up = std::min(up, margins.increasing_gain_margin);
@@ -165,7 +165,7 @@ Document margins_part(const MatchSection& section) {
            mdeg(value.noise_rms), decibel(up), decibel(down), fmt::format("{:.1f}", phase),
            fmt::format("{:.1f}", 1e3 * delay), fmt::format("{:.3f}", value.bandwidth),
            fmt::format("{:.3g}", value.acceleration_error),
-           fmt::format("{:.3f}", value.valve_effort), fmt::format("{:.2f}", value.gust_demand),
+           fmt::format("{:.3f}", value.control_effort), fmt::format("{:.2f}", value.gust_demand),
            fmt::format("{:.0f}", value.gust_torque),
            value.verification.passed ? "passed" : value.verification.failure});
     }
@@ -182,9 +182,10 @@ Document margins_part(const MatchSection& section) {
                  "  ");
 }
 
-std::string hunting_text(const std::vector<design::HuntingResult>& hunting, std::size_t which) {
-  if (which >= hunting.size()) return "-";
-  return hunting_cell(hunting[which]);
+std::string limit_cycle_text(const std::vector<design::LimitCycleResult>& limit_cycles,
+                             std::size_t which) {
+  if (which >= limit_cycles.size()) return "-";
+  return limit_cycle_cell(limit_cycles[which]);
 }
 
 Document time_part(const MatchSection& section) {
@@ -195,10 +196,12 @@ Document time_part(const MatchSection& section) {
       const auto& run = series.values[i].time_domain;
       if (!run) continue;
       std::vector<std::string> row{series.name, fmt::format("{:.2f}", section.points[i].disks),
-                                   hunting_text(run->hunting, 0), hunting_text(run->hunting, 1)};
+                                   limit_cycle_text(run->limit_cycles, 0),
+                                   limit_cycle_text(run->limit_cycles, 1)};
       if (run->reversal) {
-        row.insert(row.end(), {mdeg(run->reversal->encoder_error), mdeg(run->reversal->beam_error),
-                               mdeg(run->reversal->encoder_error_without_friction)});
+        row.insert(row.end(),
+                   {mdeg(run->reversal->encoder_error), mdeg(run->reversal->boresight_error),
+                    mdeg(run->reversal->encoder_error_without_friction)});
       }
       rows.push_back(std::move(row));
     }
@@ -207,7 +210,7 @@ Document time_part(const MatchSection& section) {
   return "\n" + table(rows, "lrrrrrr") +
          wrapped(fmt::format("On the nonlinear antenna. {}. reversal: largest error (mdeg) after "
                              "velocity reversals at {:.4g} mdeg/s.",
-                             hunting_legend(), section.tracking_rate / millidegree),
+                             limit_cycle_legend(), section.tracking_rate / millidegree),
                  "  ");
 }
 
@@ -259,7 +262,7 @@ Document document_of(const MatchSection& section) {
                   "every constraint met on {} plants (objective: {} rms); {} random starts each "
                   "and {} rounds of warm starts{}, {} evaluations.",
                   section.wind_speed, plant::to_string(section.wind_model),
-                  std::max<std::size_t>(section.members, 1), to_string(section.soft_goal.kind),
+                  std::max<std::size_t>(section.members, 1), to_string(section.objective.kind),
                   section.starts, section.rounds,
                   section.settled ? " until converged" : ", not converged", section.evaluations),
       "  ");

@@ -18,8 +18,8 @@ std::string mdeg(const MeasuredTuneSection& section, double motor_angle) {
   return fmt::format("{:.4f}", motor_angle / section.gear_ratio / millidegree);
 }
 
-bool has_law(const MeasuredLaw& law) {
-  return law.tuning.status != MeasuredTuningStatus::unstable;
+bool has_controller(const MeasuredController& controller) {
+  return controller.tuning.status != MeasuredTuningStatus::unstable;
 }
 
 std::string peak_text(const design::MeasuredPeak& peak) {
@@ -37,7 +37,7 @@ Document record_part(const MeasuredTuneSection& section) {
                   section.record, section.length, section.start, section.mean_rate,
                   section.lowest_excited, section.highest_excited, channels.frequency().size(),
                   channels.lowest_frequency() / two_pi, channels.highest_frequency() / two_pi,
-                  channels.points_left_out(), 100.0 * channels.resolved_share()),
+                  channels.points_left_out(), 100.0 * channels.resolved_fraction()),
       "  ");
   if (!section.encoder_column.empty() && !channels.encoder_assumed().empty()) {
     text += wrapped(
@@ -52,22 +52,22 @@ Document record_part(const MeasuredTuneSection& section) {
                         "  ");
 }
 
-Document laws_part(const MeasuredTuneSection& section) {
+Document controllers_part(const MeasuredTuneSection& section) {
   Rows rows{{"structure", "rms mdeg", "wind", "noise", "S rate", "S valve", "S pos.",
              "effort rad/s", "assumed", "check"}};
-  for (const auto& law : section.laws) {
-    if (!has_law(law)) {
-      rows.push_back({law.structure});
+  for (const auto& controller : section.controllers) {
+    if (!has_controller(controller)) {
+      rows.push_back({controller.structure});
       rows.back().insert(rows.back().end(), 8, "-");
       rows.back().emplace_back("none stable");
       continue;
     }
-    const auto& tuning = law.tuning;
-    rows.push_back({law.structure, mdeg(section, tuning.rms), mdeg(section, tuning.wind_rms),
+    const auto& tuning = controller.tuning;
+    rows.push_back({controller.structure, mdeg(section, tuning.rms), mdeg(section, tuning.wind_rms),
                     mdeg(section, tuning.noise_rms)});
     for (const auto& peak : tuning.verification.peaks) rows.back().push_back(peak_text(peak));
-    rows.back().push_back(fmt::format("{:.3f}", tuning.valve_effort));
-    rows.back().push_back(fmt::format("{:.1f} %", 100.0 * tuning.wind_share.total()));
+    rows.back().push_back(fmt::format("{:.3f}", tuning.control_effort));
+    rows.back().push_back(fmt::format("{:.1f} %", 100.0 * tuning.wind_fraction.total()));
     rows.back().emplace_back(tuning.status == MeasuredTuningStatus::confident ? "verified"
                              : tuning.status == MeasuredTuningStatus::nominal
                                  ? "not confident"
@@ -81,18 +81,19 @@ Document laws_part(const MeasuredTuneSection& section) {
              "  ");
 }
 
-Document gains_part(const MeasuredLaw& law) {
+Document gains_part(const MeasuredController& controller) {
   std::vector<std::string> gains;
-  const auto& descriptions = control::gain_descriptions(law.tuning.law.structure);
+  const auto& descriptions = control::gain_descriptions(controller.tuning.controller.structure);
   for (std::size_t k = 0; k < descriptions.size(); ++k) {
-    gains.push_back(fmt::format("{} {:.5g}{}", descriptions[k].symbol, law.tuning.law.gains[k],
+    gains.push_back(fmt::format("{} {:.5g}{}", descriptions[k].symbol,
+                                controller.tuning.controller.gains[k],
                                 descriptions[k].unit == "1" ? "" : " " + descriptions[k].unit));
   }
-  return wrapped(fmt::format("{}: {}.", law.structure, fmt::join(gains, ", ")), "  ", "  ");
+  return wrapped(fmt::format("{}: {}.", controller.structure, fmt::join(gains, ", ")), "  ", "  ");
 }
 
-Document verdict_part(const MeasuredLaw& law) {
-  const auto& tuning = law.tuning;
+Document verdict_part(const MeasuredController& controller) {
+  const auto& tuning = controller.tuning;
   const auto& check = tuning.verification;
   std::string text = fmt::format(
       "{}: {}{}. Confidence {:g} % at each frequency; the response's errors change 1 + L by at "
@@ -100,20 +101,20 @@ Document verdict_part(const MeasuredLaw& law) {
       "{:.2g}: a resonance above it that raises the response {:.2g} times is not examined. The "
       "confidence costs {:.1f} % of rms. 1 % more oil stiffness would change the rms by {:+.2f} %, "
       "1 % more loss by {:+.2f} %.",
-      law.structure, design::to_string(tuning.status),
+      controller.structure, design::to_string(tuning.status),
       check.failure.empty() ? "" : ": " + check.failure, 100.0 * tuning.confidence,
       100.0 * check.largest_error, check.gain_at_highest[0], check.gain_at_highest[1],
       1.0 / std::max(check.gain_at_highest[0], check.gain_at_highest[1]),
       100.0 * (tuning.rms / tuning.nominal_rms - 1.0), tuning.by_stiffness, tuning.by_loss_rate);
-  const auto& on_case = law.peaks_on_case;
-  text += law.stable_on_case
+  const auto& on_case = controller.peaks_on_case;
+  text += controller.stable_on_case
               ? fmt::format(
                     " On the case's linear plant the same gains have Ms {:.2f}, {:.2f} and {:.2f}.",
                     on_case[0], on_case[1], on_case[2])
               : " On the case's linear plant the same gains are UNSTABLE: do not use them without "
                 "a record at tracking speed.";
-  if (!tuning.active_goals.empty()) {
-    text += fmt::format(" Active constraints: {}.", fmt::join(tuning.active_goals, "; "));
+  if (!tuning.active_constraints.empty()) {
+    text += fmt::format(" Active constraints: {}.", fmt::join(tuning.active_constraints, "; "));
   }
   if (!tuning.gains_at_bound.empty()) {
     text += fmt::format(" At the search limit: {}.", fmt::join(tuning.gains_at_bound, ", "));
@@ -126,14 +127,14 @@ Document verdict_part(const MeasuredLaw& law) {
 Document document_of(const MeasuredTuneSection& section) {
   Document text = heading(
       fmt::format("Loops tuned on the measured response, wind {:.3g} m/s", section.wind_speed));
-  text += record_part(section) + "\n" + laws_part(section);
+  text += record_part(section) + "\n" + controllers_part(section);
   text += heading("Gains, SI at the motor shaft");
-  for (const auto& law : section.laws) {
-    if (has_law(law)) text += essential(gains_part(law));
+  for (const auto& controller : section.controllers) {
+    if (has_controller(controller)) text += essential(gains_part(controller));
   }
   text += heading("Basis of the verdicts");
-  for (const auto& law : section.laws) {
-    if (has_law(law)) text += verdict_part(law);
+  for (const auto& controller : section.controllers) {
+    if (has_controller(controller)) text += verdict_part(controller);
   }
   for (const auto& note : section.notes) text += wrapped("- " + note + ".", "  ", "  ");
   return text;
@@ -141,17 +142,17 @@ Document document_of(const MeasuredTuneSection& section) {
 
 std::vector<std::string> conclude(const MeasuredTuneSection& section) {
   std::vector<std::string> sentences;
-  for (const auto& law : section.laws) {
-    const auto& tuning = law.tuning;
+  for (const auto& controller : section.controllers) {
+    const auto& tuning = controller.tuning;
     sentences.push_back(
-        has_law(law)
+        has_controller(controller)
             ? fmt::format(
                   "{} on the measured response: encoder rms {} mdeg in {:.3g} m/s for wind at "
                   "the motor shaft, {}.",
-                  law.structure, mdeg(section, tuning.rms), section.wind_speed,
+                  controller.structure, mdeg(section, tuning.rms), section.wind_speed,
                   design::to_string(tuning.status))
             : fmt::format("{} on the measured response: no stable controller found.",
-                          law.structure));
+                          controller.structure));
   }
   return sentences;
 }

@@ -28,7 +28,7 @@ std::string friction_doubts(const PlantSection& section, bool exact) {
   }
   const auto add = [&](const char* name, const identification::FrictionInterval& interval,
                        double value) {
-    if (std::max(interval.largest - value, value - interval.least) > worth_telling * value) {
+    if (std::max(interval.largest - value, value - interval.minimum) > worth_telling * value) {
       moved.push_back(fmt::format("{} is {}", name, io::in_words(interval, "N.m")));
     }
   };
@@ -91,7 +91,7 @@ Document structure_part(const plant::Structure& structure) {
     held.push_back(
         {held.size() == 1 ? "lowest" : fmt::format("structure.mode[{}]", held.size() - 2),
          fmt::format("{:.4f}", mode.frequency), fmt::format("{:.4f}", mode.inertia_fraction),
-         fmt::format("{:.2f}", mode.gear_share)});
+         fmt::format("{:.2f}", mode.gear_fraction)});
   }
   return "\n" + table(held) + "\n" + table(rows) +
          wrapped(
@@ -136,8 +136,8 @@ Document document_of(const PlantSection& section) {
           "N.m/rad"),
       row("valve", drive.valve_corner / two_pi, "Hz"),
       row("supply torque", section.supply_torque, "N.m"),
-      row("supply torque beyond friction at tracking rate and offset", section.torque_for_wind,
-          "N.m"),
+      row("supply torque beyond friction at tracking rate and offset",
+          section.available_wind_torque, "N.m"),
       row("mean wind torque at design speed", section.mean_wind_torque, "N.m")};
   if (section.slew_rate_margin) {
     numbers.push_back(
@@ -149,9 +149,9 @@ Document document_of(const PlantSection& section) {
   std::vector<std::vector<std::string>> rows{
       {"mode", "frequency Hz", "damping", "pole 1/s", "fraction", "oil", "gear"}};
   for (const auto& mode : section.modes) {
-    const bool springs = mode.pole.imag() > 0.0 && mode.oil_share != 0.0;
+    const bool springs = mode.pole.imag() > 0.0 && mode.oil_fraction != 0.0;
     // One that rounds to nothing has no sign.
-    const auto share = [&](double of) {
+    const auto fraction = [&](double of) {
       return springs ? fmt::format("{:.2f}", std::abs(of) < 0.005 ? 0.0 : of) : "-";
     };
     rows.push_back({mode.description, fmt::format("{:.4f}", mode.frequency),
@@ -159,8 +159,8 @@ Document document_of(const PlantSection& section) {
                     mode.pole.imag() > 0.0
                         ? fmt::format("{:.4f} + {:.4f}i", mode.pole.real(), mode.pole.imag())
                         : fmt::format("{:.4f}", mode.pole.real()),
-                    fmt::format("{:.2f}", mode.participation), share(mode.oil_share),
-                    share(mode.gear_share)});
+                    fmt::format("{:.2f}", mode.participation), fraction(mode.oil_fraction),
+                    fraction(mode.gear_fraction)});
   }
   text += table(rows);
   text += wrapped(

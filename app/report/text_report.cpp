@@ -33,10 +33,10 @@ Document document_of(const std::vector<io::SupersededInput>& superseded) {
   std::vector<std::vector<std::string>> rows{
       {"key", "unit", "stated", "records", "+-%", "was assumed"}};
   for (const auto& input : superseded) {
-    const double share = 100.0 * numerics::normal_975 * input.standard_uncertainty;
+    const double fraction = 100.0 * numerics::normal_975 * input.standard_uncertainty;
     rows.push_back({input.key, input.unit, fmt::format("{:.4g}", input.stated_value),
                     fmt::format("{:.4g}", input.value),
-                    share > 0.0 ? fmt::format("{:.2g}", share / std::abs(input.value)) : "-",
+                    fraction > 0.0 ? fmt::format("{:.2g}", fraction / std::abs(input.value)) : "-",
                     input.assumed ? "yes" : "no"});
   }
   return text + table(rows, "llrrrl") +
@@ -93,7 +93,7 @@ Document sections_of(const Report& report) {
   if (report.tuned) text += document_of(*report.tuned);
   if (report.limit) text += document_of(*report.limit);
   if (report.time_domain) text += document_of(*report.time_domain);
-  if (!report.choices.empty()) text += document_of(report.choices);
+  if (!report.interpretations.empty()) text += document_of(report.interpretations);
   if (report.matching) text += document_of(*report.matching);
   if (report.matched) text += document_of(*report.matched);
   if (report.evaluated) text += document_of(*report.evaluated);

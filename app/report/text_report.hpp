@@ -30,7 +30,7 @@ Document document_of(const TuneSection& section);
 /// The controller on the nonlinear antenna.
 Document document_of(const TimeDomainSection& section);
 /// The result of each interpretation of contradictory numbers in the case.
-Document document_of(const std::vector<ChoiceResult>& choices);
+Document document_of(const std::vector<InterpretationResult>& interpretations);
 Document document_of(const MatchingSection& section);
 /// Inputs that the records have replaced, before and after.
 Document document_of(const std::vector<io::SupersededInput>& superseded);

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/report/hunting_wording.hpp>
 #include <boresight/app/report/influences.hpp>
+#include <boresight/app/report/limit_cycle_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -58,17 +58,18 @@ Document wind_part(const TimeDomainSection& section) {
                          section.options.wind_duration),
              "rms mdeg", "without it"}};
   rows.push_back({"linear prediction", mdeg(wind.predicted_rms), ""});
-  rows.push_back({"  realisation error of this record", signed_mdeg(wind.chance), ""});
+  rows.push_back({"  realisation error of this record", signed_mdeg(wind.realisation_error), ""});
   rows.push_back({fmt::format("  sampling every {:g} s", section.sample_time),
                   signed_mdeg(wind.sampling), ""});
   for (const auto& influence : wind.influences) {
     rows.push_back({"  " + words_of(influence.influence), signed_mdeg(influence.difference),
                     influence.status == RunStatus::complete
-                        ? mdeg(influence.beam_rms_without)
+                        ? mdeg(influence.boresight_rms_without)
                         : std::string(design::to_string(influence.status))});
   }
-  rows.push_back({"  interactions, oil lines and offset (remainder)", signed_mdeg(wind.joint), ""});
-  rows.push_back({"simulated", mdeg(wind.beam_rms), ""});
+  rows.push_back(
+      {"  interactions, oil lines and offset (remainder)", signed_mdeg(wind.interaction), ""});
+  rows.push_back({"simulated", mdeg(wind.boresight_rms), ""});
   if (section.rms && section.rms->status == RunStatus::complete) {
     const auto& rms = section.rms->rms;
     rows.push_back({fmt::format("expected, by {} records (95 % {} .. {})", section.rms->records,
@@ -97,31 +98,32 @@ Document integrators_part(const TimeDomainSection& section) {
   return wrapped(fmt::format("Second integrator, CVODES: {}.", verdict), "  ", "  ");
 }
 
-Document hunting_part(const TimeDomainSection& section) {
+Document limit_cycle_part(const TimeDomainSection& section) {
   Document text;
-  for (const auto& hunting : section.result.hunting) {
-    const std::string where = hunting.rate == 0.0
-                                  ? std::string("At rest")
-                                  : fmt::format("At {:.3g} mdeg/s", hunting.rate / millidegree);
-    if (hunting.status != RunStatus::complete) {
-      text +=
-          wrapped(fmt::format("{}, no wind: {}.", where, ended(hunting.status, hunting.message)),
-                  "  ", "  ");
+  for (const auto& limit_cycles : section.result.limit_cycles) {
+    const std::string where =
+        limit_cycles.rate == 0.0 ? std::string("At rest")
+                                 : fmt::format("At {:.3g} mdeg/s", limit_cycles.rate / millidegree);
+    if (limit_cycles.status != RunStatus::complete) {
+      text += wrapped(
+          fmt::format("{}, no wind: {}.", where, ended(limit_cycles.status, limit_cycles.message)),
+          "  ", "  ");
       continue;
     }
     const std::string cycle =
-        hunting.limit_cycle ? fmt::format(
-                                  "a limit cycle of +-{} mdeg at the encoder, +-{} mdeg in "
-                                  "boresight, {}, in {} of {} runs{}",
-                                  mdeg(hunting.encoder_amplitude), mdeg(hunting.beam_amplitude),
-                                  hunting.frequency ? fmt::format("{:.3g} Hz", *hunting.frequency)
-                                                    : std::string("without a steady period"),
-                                  hunting.starts_hunting, hunting.starts,
-                                  hunting.some_only() ? ", from different initial steps" : "")
-                            : fmt::format(
-                                  "no lasting limit cycle above the encoder's resolution in {} "
-                                  "runs (+-{} mdeg left)",
-                                  hunting.starts, mdeg(hunting.encoder_amplitude));
+        limit_cycles.limit_cycle
+            ? fmt::format(
+                  "a limit cycle of +-{} mdeg at the encoder, +-{} mdeg in "
+                  "boresight, {}, in {} of {} runs{}",
+                  mdeg(limit_cycles.encoder_amplitude), mdeg(limit_cycles.boresight_amplitude),
+                  limit_cycles.frequency ? fmt::format("{:.3g} Hz", *limit_cycles.frequency)
+                                         : std::string("without a steady period"),
+                  limit_cycles.starts_with_limit_cycle, limit_cycles.starts,
+                  limit_cycles.some_only() ? ", from different initial steps" : "")
+            : fmt::format(
+                  "no lasting limit cycle above the encoder's resolution in {} "
+                  "runs (+-{} mdeg left)",
+                  limit_cycles.starts, mdeg(limit_cycles.encoder_amplitude));
     text += wrapped(fmt::format("{}, no wind: {}.", where, cycle), "  ", "  ");
   }
   return text;
@@ -139,7 +141,7 @@ Document reversal_part(const TimeDomainSection& section) {
           "Velocity reversal at +-{:.3g} mdeg/s: peak error {} mdeg at the encoder, {} mdeg in "
           "boresight, {:.2f} s after the reversal; {} mdeg at the encoder without friction.",
           section.options.tracking_rate / millidegree, mdeg(reversal.encoder_error),
-          mdeg(reversal.beam_error), reversal.time_of_largest,
+          mdeg(reversal.boresight_error), reversal.time_of_largest,
           mdeg(reversal.encoder_error_without_friction)),
       "  ", "  ");
 }
@@ -151,7 +153,7 @@ Document slew_part(const TimeDomainSection& section) {
   std::string text =
       fmt::format("Slew of {:g} deg at {:.3g} deg/s and {:.3g} deg/s2", slew.distance / degree,
                   slew.limits.rate / degree, slew.limits.acceleration / degree);
-  if (!slew.within_reach) {
+  if (!slew.achievable_limits) {
     text += fmt::format(" (drive limit; specified {:.3g} deg/s and {:.3g} deg/s2)",
                         asked.rate / degree, asked.acceleration / degree);
   }
@@ -174,36 +176,36 @@ Document slew_part(const TimeDomainSection& section) {
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
   const double error = section.options.tightest_budget;
-  const double amplitude = design::hunting_limit(error);
+  const double amplitude = design::limit_cycle_limit(error);
   const auto simulated = [](const Candidate& one) {
-    return std::isfinite(one.result.wind.beam_rms);
+    return std::isfinite(one.result.wind.boresight_rms);
   };
   const auto fit = [&](const Candidate& one) {
-    return simulated(one) && design::holds_still(one.result.hunting, error);
+    return simulated(one) && design::is_limit_cycle_free(one.result.limit_cycles, error);
   };
-  const auto hunts = [&](const Candidate& one) {
-    return design::hunting_amplitude(one.result.hunting) > amplitude;
+  const auto has_limit_cycle = [&](const Candidate& one) {
+    return design::limit_cycle_amplitude(one.result.limit_cycles) > amplitude;
   };
   const std::string beyond = fmt::format("beyond the tightest budget (+-{} mdeg)", mdeg(amplitude));
-  const std::string least = fmt::format(
+  const std::string minimum = fmt::format(
       "the one above meets most budgets and then has the least simulated rms, limit cycle added in "
       "quadrature, or fewer gains in a tie with it ({:.0f} %, or the 95 % interval of the "
       "difference "
       "over the same winds)",
       100.0 * negligible_change);
   if (std::ranges::any_of(section.candidates, fit)) {
-    return fmt::format("Of the controllers free of limit cycles {}, {}.", beyond, least);
+    return fmt::format("Of the controllers free of limit cycles {}, {}.", beyond, minimum);
   }
   if (std::ranges::none_of(section.candidates, simulated)) {
     return "None completes the run in wind: the one above has the least linear rms.";
   }
-  if (std::ranges::all_of(section.candidates, hunts)) {
-    return fmt::format("All limit-cycle {}; {}.", beyond, least);
+  if (std::ranges::all_of(section.candidates, has_limit_cycle)) {
+    return fmt::format("All limit-cycle {}; {}.", beyond, minimum);
   }
   return fmt::format(
       "None completes the run in wind and is shown free of limit cycles {}; of those that complete "
       "it {}.",
-      beyond, least);
+      beyond, minimum);
 }
 
 // By several records where they ran.
@@ -211,25 +213,25 @@ std::string simulated_cell(const design::NonlinearVerification& result,
                            const std::optional<design::SimulatedRms>& expected) {
   const RunStatus status = expected ? expected->status : result.wind.status;
   if (status != RunStatus::complete) return std::string(design::to_string(status));
-  return mdeg(expected ? expected->rms.value : result.wind.beam_rms);
+  return mdeg(expected ? expected->rms.value : result.wind.boresight_rms);
 }
 
 Document candidates_part(const TimeDomainSection& section) {
   if (section.candidates.empty()) return {};
   Rows rows{{"controller", "linear rms mdeg", "simulated", "limit cycle at rest", "when tracking",
              "reversal error", "slew settled s"}};
-  for (const auto& [law, result, expected] : section.candidates) {
+  for (const auto& [controller, result, expected] : section.candidates) {
     const auto amplitude = [&](bool at_rest) -> std::string {
-      for (const auto& hunting : result.hunting) {
-        if ((hunting.rate == 0.0) != at_rest) continue;
-        return hunting_cell(hunting);
+      for (const auto& limit_cycles : result.limit_cycles) {
+        if ((limit_cycles.rate == 0.0) != at_rest) continue;
+        return limit_cycle_cell(limit_cycles);
       }
       return "-";
     };
     const auto& slew = result.slew;
-    rows.push_back({law, mdeg(result.wind.predicted_rms), simulated_cell(result, expected),
+    rows.push_back({controller, mdeg(result.wind.predicted_rms), simulated_cell(result, expected),
                     amplitude(true), amplitude(false),
-                    result.reversal ? mdeg(result.reversal->beam_error) : "-",
+                    result.reversal ? mdeg(result.reversal->boresight_error) : "-",
                     !slew                  ? "-"
                     : !slew->settling_time ? fmt::format("> {:g}", section.options.settling_watched)
                     : *slew->settling_time > 0.0 ? fmt::format("{:.2f}", *slew->settling_time)
@@ -247,8 +249,8 @@ Document candidates_part(const TimeDomainSection& section) {
 }  // namespace
 
 Document document_of(const TimeDomainSection& section) {
-  return heading("In the time domain, on the nonlinear antenna: " + section.law) +
-         wind_part(section) + integrators_part(section) + hunting_part(section) +
+  return heading("In the time domain, on the nonlinear antenna: " + section.controller) +
+         wind_part(section) + integrators_part(section) + limit_cycle_part(section) +
          reversal_part(section) + slew_part(section) +
          wrapped(fmt::format(
                      "The controller: sampled every {:g} s with one sample of computing, "

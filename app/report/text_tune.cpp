@@ -42,8 +42,9 @@ std::string speed(const TuneSection& section, double limit) {
   if (std::isnan(limit)) return "-";
   std::string text = std::isfinite(limit) ? fmt::format("{:.2f}", limit) : "> 60";
   if (section.climate.empty()) return text;
-  return fmt::format("{} ({})", text,
-                     percent_of_time(section.climate, std::min(limit, section.supply_wind_speed)));
+  return fmt::format(
+      "{} ({})", text,
+      percent_of_time(section.climate, std::min(limit, section.torque_limited_wind_speed)));
 }
 
 double loss(double rms, const design::PointingBand& band) {
@@ -52,22 +53,23 @@ double loss(double rms, const design::PointingBand& band) {
 
 // Whether a table of the laws' losses has one beyond the beam's parabola.
 bool far_out(const TuneSection& section) {
-  return std::ranges::any_of(section.laws, [&](const TunedLaw& row) {
-    const double rms = std::max(row.beam_rms, row.climate_rms.value_or(0.0));
+  return std::ranges::any_of(section.controllers, [&](const TunedController& row) {
+    const double rms = std::max(row.boresight_rms, row.climate_rms.value_or(0.0));
     return std::ranges::any_of(section.bands, [&](const design::PointingBand& band) {
       return loss(rms, band) > largest_parabola_loss;
     });
   });
 }
 
-std::string verdict(const TunedLaw& row) {
+std::string verdict(const TunedController& row) {
   if (!row.stable()) return row.tuned_for == TunedFor::present ? "UNSTABLE" : "none stable";
-  if (!row.goals_met) return row.design.tuning.interrupted ? "not finished" : "misses constraints";
-  if (row.in_time && !row.in_time->still) return "LIMIT CYCLE";
+  if (!row.constraints_met)
+    return row.design.tuning.interrupted ? "not finished" : "misses constraints";
+  if (row.in_time && !row.in_time->limit_cycle_free) return "LIMIT CYCLE";
   return row.design.verification.passed ? "verified" : "NOT VERIFIED";
 }
 
-std::vector<std::string> first_cells(const TunedLaw& row) {
+std::vector<std::string> first_cells(const TunedController& row) {
   return {row.structure, std::string(to_string(row.tuned_for)),
           fmt::format("{:.3g}", row.wind_speed)};
 }
@@ -96,21 +98,22 @@ Document bending_part(const TuneSection& section) {
 // Controllers "verified" without a run on the nonlinear antenna where others ran there.
 Document linear_alone_part(const TuneSection& section) {
   const auto some_ran = [&](const auto& counts) {
-    return std::ranges::any_of(section.laws,
-                               [&](const TunedLaw& row) { return row.in_time && counts(row); });
+    return std::ranges::any_of(section.controllers, [&](const TunedController& row) {
+      return row.in_time && counts(row);
+    });
   };
   std::vector<std::string> names;
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.in_time || !row.usable()) continue;
     std::string name = row.tuned_for == TunedFor::present
                            ? std::string("present gains")
                            : fmt::format("{} controllers", to_string(row.tuned_for));
-    if (some_ran([&](const TunedLaw& other) { return other.tuned_for == row.tuned_for; })) {
+    if (some_ran([&](const TunedController& other) { return other.tuned_for == row.tuned_for; })) {
       name += fmt::format(" at {:.3g} m/s", row.wind_speed);
     }
     if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   }
-  if (names.empty() || !some_ran([](const TunedLaw&) { return true; })) return {};
+  if (names.empty() || !some_ran([](const TunedController&) { return true; })) return {};
   return wrapped(fmt::format("Not run on the nonlinear antenna: {}. They are verified on the "
                              "linear plant only, and may limit-cycle.{}",
                              fmt::join(names, ", "),
@@ -123,7 +126,7 @@ Document linear_alone_part(const TuneSection& section) {
 
 Document pointing_part(const TuneSection& section) {
   const bool climate = std::ranges::any_of(
-      section.laws, [](const TunedLaw& row) { return row.climate_rms.has_value(); });
+      section.controllers, [](const TunedController& row) { return row.climate_rms.has_value(); });
   Rows rows{{"structure", "tuned for", "m/s", "rms mdeg", "worst plant"}};
   for (const auto& band : section.bands) rows[0].push_back(fmt::format("dB {}", band.name));
   if (climate) {
@@ -136,15 +139,16 @@ Document pointing_part(const TuneSection& section) {
     rows[0].push_back(fmt::format("({}) m/s", i + 1));
   }
   rows[0].emplace_back("check");
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     auto cells = first_cells(row);
-    cells.push_back(mdeg(row.beam_rms));
+    cells.push_back(mdeg(row.boresight_rms));
     const bool all_stable =
         row.ensemble && row.ensemble->stable == static_cast<int>(row.ensemble->members.size());
     cells.push_back(!row.ensemble ? "-"
                     : all_stable  ? mdeg(row.ensemble->largest_rms)
                                   : "unstable");
-    for (const auto& band : section.bands) cells.push_back(loss_text(loss(row.beam_rms, band)));
+    for (const auto& band : section.bands)
+      cells.push_back(loss_text(loss(row.boresight_rms, band)));
     if (climate) {
       const double rms = row.climate_rms.value_or(std::nan(""));
       cells.push_back(mdeg(rms));
@@ -166,10 +170,10 @@ Document pointing_part(const TuneSection& section) {
                                         dish_and_mast(section.wind_mast, *budget.wind_speed))
                           : "")));
   }
-  if (!section.budgets.empty() && std::isfinite(section.supply_wind_speed)) {
+  if (!section.budgets.empty() && std::isfinite(section.torque_limited_wind_speed)) {
     text += wrapped(fmt::format("Supply torque ignored: at {:.1f} m/s the mean wind takes all of "
                                 "it that friction and offset leave.",
-                                section.supply_wind_speed),
+                                section.torque_limited_wind_speed),
                     "  ");
   }
   if (!section.budgets.empty() && !section.climate.empty()) {
@@ -194,7 +198,7 @@ Document robustness_part(const TuneSection& section) {
   Rows rows{{"structure", "tuned for", "m/s", "S rate", "S valve", "S pos.", "PM valve", "GM valve",
              "PM pos.", "GM pos.", "effort rad/s", "stable plants", "constraints met",
              "active constraints"}};
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     auto cells = first_cells(row);
     if (!row.stable()) {
       cells.insert(cells.end(), 11, "-");
@@ -207,12 +211,12 @@ Document robustness_part(const TuneSection& section) {
       cells.push_back(fixed(design.margins.at(loop).phase_margin_deg, 1));
       cells.push_back(decibel(design.margins.at(loop).increasing_gain_margin));
     }
-    cells.push_back(fixed(design.valve_effort, 3));
+    cells.push_back(fixed(design.control_effort, 3));
     const auto of_all = [&](int count) {
       return row.ensemble ? fmt::format("{}/{}", count, row.ensemble->members.size()) : "-";
     };
     cells.push_back(of_all(row.ensemble ? row.ensemble->stable : 0));
-    cells.push_back(of_all(row.ensemble ? row.ensemble->within_goals : 0));
+    cells.push_back(of_all(row.ensemble ? row.ensemble->within_constraints : 0));
     cells.push_back(fmt::format("{}", design.tuning.limits.size()));
     rows.push_back(std::move(cells));
   }
@@ -225,23 +229,23 @@ Document robustness_part(const TuneSection& section) {
 
 // One table a structure and wind speed: present gains, where there are any, and tuned ones.
 Document gains_part(const TuneSection& section) {
-  const TunedLaw* recommended = recommended_law(section);
+  const TunedController* recommended = recommended_tuned_controller(section);
   Document text;
-  for (std::size_t i = 0; i < section.laws.size(); ++i) {
-    const auto same = [&](const TunedLaw& row) {
-      return row.structure == section.laws[i].structure &&
-             row.wind_speed == section.laws[i].wind_speed;
+  for (std::size_t i = 0; i < section.controllers.size(); ++i) {
+    const auto same = [&](const TunedController& row) {
+      return row.structure == section.controllers[i].structure &&
+             row.wind_speed == section.controllers[i].wind_speed;
     };
-    const auto before = section.laws.begin() + static_cast<std::ptrdiff_t>(i);
-    if (std::any_of(section.laws.begin(), before, same)) continue;
-    const auto& descriptions = section.laws[i].design.tuning.law.structure.gains();
+    const auto before = section.controllers.begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::any_of(section.controllers.begin(), before, same)) continue;
+    const auto& descriptions = section.controllers[i].design.tuning.controller.structure.gains();
     Rows rows{{"gain", "searched, SI"}};
     for (const auto& gain : descriptions) {
       rows.push_back({fmt::format("{} {}", gain.symbol, gain.name),
                       fmt::format("{:g} .. {:g} {}", gain.lower, gain.upper,
                                   gain.unit == "1" ? "" : gain.unit)});
     }
-    for (const auto& row : section.laws) {
+    for (const auto& row : section.controllers) {
       if (!same(row)) continue;
       rows[0].emplace_back(to_string(row.tuned_for));
       const auto texts = section.gains_of(row);
@@ -249,8 +253,8 @@ Document gains_part(const TuneSection& section) {
         rows[k + 1].push_back(k < texts.size() ? texts[k] : "-");
       }
     }
-    Document part = subheading(fmt::format("{} at {:.3g} m/s", section.laws[i].structure,
-                                           section.laws[i].wind_speed)) +
+    Document part = subheading(fmt::format("{} at {:.3g} m/s", section.controllers[i].structure,
+                                           section.controllers[i].wind_speed)) +
                     table(rows, "ll");
     const bool best = recommended != nullptr && same(*recommended);
     text += best ? essential(std::move(part)) : std::move(part);
@@ -260,35 +264,35 @@ Document gains_part(const TuneSection& section) {
 
 Document limits_part(const TuneSection& section) {
   Document text;
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     const auto& tuning = row.design.tuning;
     if (row.tuned_for == TunedFor::present || !row.stable()) continue;
     std::vector<std::string> limits;
     for (const auto& limit : tuning.limits) limits.push_back(limit.description());
-    if (limits.empty()) limits = tuning.active_goals;
+    if (limits.empty()) limits = tuning.active_constraints;
     if (limits.empty()) limits.emplace_back("none");
     text += wrapped(fmt::format("{}, {}, {:.3g} m/s: {}.", row.structure, to_string(row.tuned_for),
                                 row.wind_speed, fmt::join(limits, "; ")),
                     "  ", "  ");
   }
-  std::vector<const TunedLaw*> laws;
-  for (const auto& row : section.laws) laws.push_back(&row);
+  std::vector<const TunedController*> controllers;
+  for (const auto& row : section.controllers) controllers.push_back(&row);
   const double sample_time = control::sample_time_of(section.problem.delay);
-  for (const auto& sentence : gains_at_bounds(laws, sample_time)) {
+  for (const auto& sentence : gains_at_bounds(controllers, sample_time)) {
     text += wrapped(sentence, "  ", "  ");
   }
-  for (const auto& sentence : gain_trades(laws, section.gain_units))
+  for (const auto& sentence : gain_trades(controllers, section.gain_units))
     text += wrapped(sentence, "  ", "  ");
   return text;
 }
 
 Document goals_part(const TuneSection& section) {
-  const design::HardGoals& goals = section.goals;
+  const design::Constraints& goals = section.goals;
   const auto& peaks = goals.sensitivity_peak;
   std::string text = fmt::format(
       "Constraints: Ms at most {:g} (rate loop alone), {:g} (valve command), {:g} (position loop); "
       "control effort at most {:g} rad/s",
-      peaks[0], peaks[1], peaks[2], goals.valve_effort);
+      peaks[0], peaks[1], peaks[2], goals.control_effort);
   const auto& gain_margin = goals.gain_margin[0];
   const auto& phase_margin = goals.phase_margin[0];
   if (gain_margin) text += fmt::format("; gain margin {} dB", decibel(*gain_margin));
@@ -302,11 +306,12 @@ Document goals_part(const TuneSection& section) {
     text += fmt::format("; {:g} times rms in gusts within {:.4g} N.m and {:.4g} rad/s",
                         goals.crest_factor, *goals.gust_torque, *goals.gust_demand);
   }
-  if (section.beam_rms_goal) text += fmt::format("; rms {} mdeg", mdeg(*section.beam_rms_goal));
+  if (section.boresight_rms_goal)
+    text += fmt::format("; rms {} mdeg", mdeg(*section.boresight_rms_goal));
   return wrapped(
       fmt::format("{}. Objective: {} rms{}. Robust controllers meet the constraints on {} plants, "
                   "{}. {} starts.",
-                  text, design::to_string(section.soft_goal.kind),
+                  text, design::to_string(section.objective.kind),
                   section.minimises_climate ? " over the site's wind climate" : "",
                   section.ensemble_size, to_string(section.ensemble_source), section.starts),
       "  ");
@@ -323,8 +328,9 @@ Document document_of(const TuneSection& section) {
     text += wrapped(fmt::format("Not run: {}.", fmt::join(section.not_run_texts(), "; ")), "  ");
   }
   text += pointing_part(section) + "\n" + robustness_part(section);
-  const bool before = std::ranges::any_of(
-      section.laws, [](const TunedLaw& row) { return row.tuned_for == TunedFor::present; });
+  const bool before = std::ranges::any_of(section.controllers, [](const TunedController& row) {
+    return row.tuned_for == TunedFor::present;
+  });
   text += heading(before ? "Gains, before and after" : "Gains") + gains_part(section);
   text += heading("Active constraints and their shadow prices");
   return text + limits_part(section);

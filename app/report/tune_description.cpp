@@ -29,10 +29,10 @@ struct BudgetLimit {
 };
 
 void describe_goals(io::Visitor& v, const TuneSection& section) {
-  const design::HardGoals& goals = section.goals;
-  const bool over_quantile = section.soft_goal.kind == design::SoftGoalKind::quantile;
+  const design::Constraints& goals = section.goals;
+  const bool over_quantile = section.objective.kind == design::ObjectiveKind::quantile;
   io::describe_breaks(v, goals);
-  v.number("valve_effort", goals.valve_effort, unit::radian_per_second,
+  v.number("control_effort", goals.control_effort, unit::radian_per_second,
            "Largest rms of the noise-driven valve command.", above_zero);
   v.number("bandwidth", goals.bandwidth, unit::hertz_of_radians,
            "Least, of the position loop; null: none asked for.");
@@ -42,12 +42,12 @@ void describe_goals(io::Visitor& v, const TuneSection& section) {
            "Largest valve command in gusts; null: no goal.");
   v.number("gust_torque", goals.gust_torque, unit::newton_metre,
            "Largest motor torque in gusts; null: no goal.");
-  v.number("beam_rms", section.beam_rms_goal, unit::millidegree,
-           "Largest beam error at the first wind speed; null: no goal.");
-  v.text("soft_goal", design::to_string(section.soft_goal.kind),
+  v.number("boresight_rms", section.boresight_rms_goal, unit::millidegree,
+           "Largest boresight error at the first wind speed; null: no goal.");
+  v.text("objective", design::to_string(section.objective.kind),
          "What is made least over the plants: nominal, expected, worst_case, quantile.");
-  v.number("quantile", over_quantile ? std::optional(section.soft_goal.quantile) : std::nullopt,
-           unit::ratio, "Share of the plants; null for another soft goal.");
+  v.number("quantile", over_quantile ? std::optional(section.objective.quantile) : std::nullopt,
+           unit::ratio, "Fraction of the plants; null for another objective.");
   v.word("rms_over", section.minimises_climate ? "climate" : "design_speed",
          {"design_speed", "climate"}, "Wind in which the rms that is made least is taken.");
 }
@@ -72,19 +72,19 @@ void describe_mission(io::Visitor& v, const TuneSection& section) {
          });
 }
 
-std::string_view status_of(const TunedLaw& row) {
+std::string_view status_of(const TunedController& row) {
   switch (row.design.tuning.status) {
     case design::TuningStatus::optimal:
-      return row.goals_met ? "goals met" : "goals missed";
+      return row.constraints_met ? "goals met" : "goals missed";
     case design::TuningStatus::infeasible:
       return "goals missed";
     case design::TuningStatus::unstable:
       break;
   }
-  return "no stable law";
+  return "no stable controller";
 }
 
-void describe_losses(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+void describe_losses(io::Visitor& v, const TuneSection& section, const TunedController& row) {
   const auto loss = [](const std::optional<double>& rms, const design::PointingBand& band) {
     return rms ? std::optional(design::pointing_loss_db(*rms, band.beamwidth,
                                                         design::LossConvention::mean_loss_two_axes))
@@ -93,7 +93,7 @@ void describe_losses(io::Visitor& v, const TuneSection& section, const TunedLaw&
   v.list("bands", section.bands, "Losses, one a radio band.",
          [&](const design::PointingBand& band) {
            v.text("name", band.name, "Its name.");
-           v.number("mean_loss_two_axes", loss(row.beam_rms, band), unit::decibel_as_kept,
+           v.number("mean_loss_two_axes", loss(row.boresight_rms, band), unit::decibel_as_kept,
                     "Mean loss with both axes equally in error, by a parabola that does not hold "
                     "beyond 3 dB; texts say > 3 there.");
            v.number("climate_mean_loss_two_axes", loss(row.climate_rms, band),
@@ -101,7 +101,7 @@ void describe_losses(io::Visitor& v, const TuneSection& section, const TunedLaw&
          });
 }
 
-void describe_limits(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+void describe_limits(io::Visitor& v, const TuneSection& section, const TunedController& row) {
   std::vector<BudgetLimit> limits;
   for (std::size_t i = 0; i < row.speed_limits.size(); ++i) {
     limits.push_back({section.budgets[i], row.speed_limits[i]});
@@ -113,16 +113,17 @@ void describe_limits(io::Visitor& v, const TuneSection& section, const TunedLaw&
         "wind_speed_limit", one.wind_speed, unit::metre_per_second,
         "Mean wind speed up to which the budget is met, by the effect of `simulated` where the "
         "controller ran, supply torque not counted; null: beyond 60 m/s.");
-    describe_share_of_time(v, section.climate, std::min(one.wind_speed, section.supply_wind_speed),
-                           "Share of the climate's time up to that speed, or up to the supply's if "
-                           "that is less; null without a climate or a stable law.");
+    describe_fraction_of_time(
+        v, section.climate, std::min(one.wind_speed, section.torque_limited_wind_speed),
+        "Fraction of the climate's time up to that speed, or up to the supply's if "
+        "that is less; null without a climate or a stable controller.");
   });
 }
 
-void describe_gains(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+void describe_gains(io::Visitor& v, const TuneSection& section, const TunedController& row) {
   std::vector<WrittenGain> gains;
   if (!v.by_example()) {
-    const auto& descriptions = row.design.tuning.law.structure.gains();
+    const auto& descriptions = row.design.tuning.controller.structure.gains();
     const auto texts = section.gains_of(row);
     for (std::size_t i = 0; i < texts.size(); ++i) {
       gains.push_back({descriptions[i].symbol, descriptions[i].name, texts[i]});
@@ -136,20 +137,21 @@ void describe_gains(io::Visitor& v, const TuneSection& section, const TunedLaw& 
          });
 }
 
-void describe_prices(io::Visitor& v, const std::vector<design::LimitingGoal>& limits) {
+void describe_prices(io::Visitor& v, const std::vector<design::ActiveConstraint>& limits) {
   v.list("limits", limits, "Active constraints with their shadow prices, largest first.",
-         [&](const design::LimitingGoal& limit) {
-           v.text("goal", design::describe(limit.goal), "Which, where and at which frequency.");
+         [&](const design::ActiveConstraint& limit) {
+           v.text("constraint", design::describe(limit.goal),
+                  "Which, where and at which frequency.");
            v.text("plant", limit.member.empty() ? "nominal" : limit.member, "On which plant.");
            v.number("ratio_to_limit", limit.goal.ratio, unit::ratio,
                     "Quantity over limit; limit over quantity where the limit is the least.");
-           v.number("rms_per_limit", limit.price, unit::ratio,
+           v.number("rms_per_limit", limit.shadow_price, unit::ratio,
                     "Per cent by which the rms falls for each per cent of the limit; the worst "
-                    "ratio instead of the rms where the law misses its goals.");
+                    "ratio instead of the rms where the controller misses its goals.");
          });
 }
 
-void describe_law(io::Visitor& v, const TuneSection& section, const TunedLaw& row) {
+void describe_controller(io::Visitor& v, const TuneSection& section, const TunedController& row) {
   const design::TuningResult& tuning = row.design.tuning;
   v.text("structure", row.structure, "As --structure names it.");
   v.word("tuned_for", to_string(row.tuned_for), {"present", "nominal", "robust"},
@@ -157,64 +159,69 @@ void describe_law(io::Visitor& v, const TuneSection& section, const TunedLaw& ro
          "robust: tuned for all of the ensemble.");
   v.number("design_wind_speed", row.wind_speed, unit::metre_per_second, "Mean wind speed.",
            above_zero);
-  v.word("status", status_of(row), {"goals met", "goals missed", "no stable law"},
+  v.word("status", status_of(row), {"goals met", "goals missed", "no stable controller"},
          "What became of the goals.");
-  v.flag("goals_met", row.goals_met, "Every hard goal is met, by a robust law on every plant.");
+  v.flag("constraints_met", row.constraints_met,
+         "Every constraint is met, by a robust controller on every plant.");
   v.flag("interrupted", tuning.interrupted,
-         "The user stopped its tuning: the law is the best found until then.");
-  v.flag("recommended", recommended_law(section, row.wind_speed) == &row,
-         "The law that the conclusions name at its wind speed, the nonlinear antenna considered.");
-  v.number("beam_rms", row.beam_rms, unit::millidegree,
-           "Beam error at the wind speed; null without a stable law.");
-  v.number("climate_beam_rms", row.climate_rms, unit::millidegree,
-           "Root of the mean square of the beam error over the site's wind climate; null if the "
-           "case states none.");
+         "The user stopped its tuning: the controller is the best found until then.");
+  v.flag("recommended", recommended_tuned_controller(section, row.wind_speed) == &row,
+         "The controller that the conclusions name at its wind speed, the nonlinear antenna "
+         "considered.");
+  v.number("boresight_rms", row.boresight_rms, unit::millidegree,
+           "Boresight error at the wind speed; null without a stable controller.");
+  v.number(
+      "climate_boresight_rms", row.climate_rms, unit::millidegree,
+      "Root of the mean square of the boresight error over the site's wind climate; null if the "
+      "case states none.");
   describe_losses(v, section, row);
   describe_limits(v, section, row);
   describe_gains(v, section, row);
   describe_prices(v, tuning.limits);
-  v.group_if("design", row.stable(), "The law with its verification; null without a stable one.",
+  v.group_if("design", row.stable(),
+             "The controller with its verification; null without a stable one.",
              [&] { describe(v, row.design); });
   v.group_if("simulated", row.in_time.has_value(),
              "On the nonlinear antenna at that wind speed; null where it did not run.", [&] {
-               const LawInTime run = row.in_time.value_or(LawInTime{});
+               const ControllerInTime run = row.in_time.value_or(ControllerInTime{});
                v.number(
                    "budget_rms", row.budget_rms(), unit::millidegree,
                    "What budgets are compared with: the larger of the linear and the simulated "
                    "rms, limit cycle added in quadrature; null if a run did not complete.");
-               v.flag("limit_cycle_within_budget", run.still,
+               v.flag("limit_cycle_within_budget", run.limit_cycle_free,
                       "No limit cycle beyond the tightest budget.");
                v.object("effect", row.effect(), "Beyond the linear rms.");
                v.object("expected_rms", run.expected,
                         "Over several records of wind; null if there was but one.");
              });
-  v.object(
-      "ensemble", row.ensemble,
-      "Evaluated with fixed gains on every member of the ensemble; null without a stable law.");
+  v.object("ensemble", row.ensemble,
+           "Evaluated with fixed gains on every member of the ensemble; null without a stable "
+           "controller.");
 }
 
 }  // namespace
 
 void describe(io::Visitor& v, const TuneSection& section) {
-  v.defined_as("tuned", "What the command tune found: every law, judged.");
-  v.texts("structures", section.structures, "What was tuned.", {.least = 1});
+  v.defined_as("tuned", "What the command tune found: every controller, evaluated.");
+  v.texts("structures", section.structures, "What was tuned.", {.minimum = 1});
   v.numbers("wind_speeds", section.wind_speeds, unit::metre_per_second,
             "The design's wind speeds, and those up to which budgets must be met.", above_zero,
-            {.least = 1});
+            {.minimum = 1});
   v.word("wind_model", plant::to_string(section.wind_model), {"uniform", "vickery", "coherence"},
          "Model of the wind torque.");
-  v.group("goals", "What every law must meet, and what is made least.",
+  v.group("constraints", "What every controller must meet, and what is made least.",
           [&] { describe_goals(v, section); });
   describe_mission(v, section);
-  v.number("supply_wind_speed", section.supply_wind_speed, unit::metre_per_second,
+  v.number("torque_limited_wind_speed", section.torque_limited_wind_speed, unit::metre_per_second,
            "Mean wind speed whose mean torque takes what friction and offset leave of the "
            "supply's; null: none does.");
   v.text("ensemble_source", to_string(section.ensemble_source),
          "What the plants of the ensemble were drawn from.");
   v.count("ensemble_members", section.ensemble_size, "Its plants.");
-  v.count("starts", section.starts, "Random starts of each search.", {.least = 1});
-  v.list("laws", section.laws, "One a structure, purpose and wind speed; at the sky, one axis.",
-         [&](const TunedLaw& row) { describe_law(v, section, row); });
+  v.count("starts", section.starts, "Random starts of each search.", {.minimum = 1});
+  v.list("controllers", section.controllers,
+         "One a structure, purpose and wind speed; at the sky, one axis.",
+         [&](const TunedController& row) { describe_controller(v, section, row); });
   v.texts("not_run", section.not_run_texts(), "Tunings that an interrupt left out.");
   v.list("shortfalls", section.shortfalls, "What cannot be reached (exit code 3).",
          [&](const Shortfall& one) {

@@ -80,13 +80,14 @@ PositionTestSection section_of(design::PositionTestRecord record, const io::Case
 }
 
 design::PositionTestRecord run_position_test(const io::Case& antenna, const std::string& test,
-                                             const control::ControlLaw& law, std::uint64_t seed,
+                                             const control::Controller& controller,
+                                             std::uint64_t seed,
                                              const design::RunProgress& progress) {
   io::require_simulation(antenna);
   const design::Mission mission = io::mission_of(antenna);
-  if (test != "slew") return design::run_tracking(mission, law, seed, progress);
+  if (test != "slew") return design::run_tracking(mission, controller, seed, progress);
   try {
-    return design::run_slew(mission, law, seed, progress);
+    return design::run_slew(mission, controller, seed, progress);
   } catch (const InfeasibleRequirement& error) {
     throw InfeasibleRequirement(fmt::format("{}: {}", antenna.path, error.what()));
   }

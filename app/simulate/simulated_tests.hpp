@@ -10,7 +10,7 @@ namespace boresight::app {
 
 /// The controller that a simulated position loop runs on.
 struct SimulatedController {
-  control::ControlLaw law;
+  control::Controller controller;
   std::string source;  // of its gains, in words
 };
 
@@ -34,7 +34,8 @@ PositionTestSection section_of(design::PositionTestRecord record, const io::Case
 /// io::make_nonlinear_antenna and io::mission_of; as design::run_tracking and run_slew, what is out
 /// of reach with the path of the case.
 design::PositionTestRecord run_position_test(const io::Case& antenna, const std::string& test,
-                                             const control::ControlLaw& law, std::uint64_t seed,
+                                             const control::Controller& controller,
+                                             std::uint64_t seed,
                                              const design::RunProgress& progress);
 
 }  // namespace boresight::app

@@ -11,8 +11,8 @@ namespace {
 namespace unit = io::key_units;
 
 constexpr io::NumberForm known{.finite = true};
-constexpr io::NumberForm known_positive{.least = 0.0, .finite = true};
-constexpr io::NumberForm positive{.least = 0.0};
+constexpr io::NumberForm known_positive{.minimum = 0.0, .finite = true};
+constexpr io::NumberForm positive{.minimum = 0.0};
 
 void describe_starts(io::Visitor& v, const std::vector<plant::SlidingStart>& all) {
   constexpr std::size_t listed = 1000;
@@ -37,7 +37,7 @@ void describe_starts(io::Visitor& v, const std::vector<plant::SlidingStart>& all
             "shows_breakaway", start.shows_breakaway,
             "The rate is at most the curve's stribeck_rate, so friction is still near breakaway.");
       },
-      {.most = listed});
+      {.maximum = listed});
 }
 
 void describe_sampled(io::Visitor& v, std::string_view key, const plant::SampledEvent& event,
@@ -46,7 +46,7 @@ void describe_sampled(io::Visitor& v, std::string_view key, const plant::Sampled
     v.defined_as("sampled_event", "Samples at which the condition was true.");
     v.number("first", event.first, unit::second, "The first; null if there is none.", positive);
     v.count("samples", event.samples, "How many.");
-    v.number("share", event.share, unit::ratio, "Of all.", known_positive);
+    v.number("fraction", event.fraction, unit::ratio, "Of all.", known_positive);
   });
 }
 
@@ -112,10 +112,12 @@ void describe_position(io::Visitor& v, const PositionTestSection& record) {
   v.flag("complete", record.complete, "Not interrupted.");
   v.number("duration", record.duration, unit::second, "Simulated.", known_positive);
   v.number("sample_time", record.sample_time, unit::second, "Of the record.", known_positive);
-  v.number("beam_rms", record.beam_rms, unit::millidegree, "About the mean, once settled.",
+  v.number("boresight_rms", record.boresight_rms, unit::millidegree,
+           "About the mean, once settled.", positive);
+  v.number("boresight_mean", record.boresight_mean, unit::millidegree,
+           "Static deflection in the mean wind.");
+  v.number("encoder_rms", record.encoder_rms, unit::millidegree, "As boresight_rms_mdeg.",
            positive);
-  v.number("beam_mean", record.beam_mean, unit::millidegree, "Static deflection in the mean wind.");
-  v.number("encoder_rms", record.encoder_rms, unit::millidegree, "As beam_rms_mdeg.", positive);
   v.number("predicted_rms", record.predicted_rms, unit::millidegree,
            "Linear prediction of the boresight rms in the same wind.", positive);
   v.number("settling_time", record.settling_time, unit::second,

@@ -49,8 +49,8 @@ Document position_part(const SimulationReport& report) {
              "overshoot"}};
   for (const auto& record : report.position) {
     rows.push_back({record.test, length_of(record.duration, record.complete),
-                    in_millidegrees(record.beam_rms), in_millidegrees(record.predicted_rms),
-                    in_millidegrees(record.encoder_rms), in_millidegrees(record.beam_mean),
+                    in_millidegrees(record.boresight_rms), in_millidegrees(record.predicted_rms),
+                    in_millidegrees(record.encoder_rms), in_millidegrees(record.boresight_mean),
                     settling_text(record), in_millidegrees(record.overshoot)});
   }
   return heading("Position loop, at the sky (mdeg)") + table(rows);
@@ -83,18 +83,18 @@ Document breakaway_part(const SimulationReport& report) {
              "  ");
 }
 
-std::string share_of(const plant::SampledEvent& event) {
+std::string fraction_of(const plant::SampledEvent& event) {
   if (event.samples == 0) return "-";
-  return fmt::format("{:.3g} % from {:.3f}", 100.0 * event.share, event.first.value_or(0.0));
+  return fmt::format("{:.3g} % from {:.3f}", 100.0 * event.fraction, event.first.value_or(0.0));
 }
 
 void add_limits(Rows& rows, const std::string& test, const plant::RunEvents& events) {
-  rows.push_back({test, share_of(events.command_limit), share_of(events.stroke_limit),
-                  share_of(events.slew_limit),
-                  events.contact_losses == 0
-                      ? "-"
-                      : fmt::format("{}, {}", events.contact_losses, share_of(events.contact_lost)),
-                  share_of(events.below_makeup), share_of(events.below_zero)});
+  rows.push_back({test, fraction_of(events.command_limit), fraction_of(events.stroke_limit),
+                  fraction_of(events.slew_limit),
+                  events.contact_losses == 0 ? "-"
+                                             : fmt::format("{}, {}", events.contact_losses,
+                                                           fraction_of(events.contact_lost)),
+                  fraction_of(events.below_makeup), fraction_of(events.below_zero)});
 }
 
 Document limits_part(const SimulationReport& report) {

@@ -20,15 +20,15 @@ std::optional<TimeDomainSection> section_of(const io::Case& antenna,
                                             std::optional<design::TimeDomainStudy> study);
 
 /// In a sentence that the drive cannot slew as the case asks; empty if it can.
-std::string slew_out_of_reach(const TimeDomainSection& section);
+std::string slew_not_achievable(const TimeDomainSection& section);
 
 /// A sentence if an assumed valve stroke decides the difference between nonlinear and linear
 /// antenna: the rms in wind, or the slew rate. Empty if the stroke is stated or decides neither.
 std::string assumed_stroke(const TimeDomainSection& section);
 
 /// A sentence if freedom from limit cycles within the tightest budget is not shown
-/// (design::holds_still); else empty.
-std::string not_still(const TimeDomainSection& section);
+/// (design::is_limit_cycle_free); else empty.
+std::string limit_cycle_remark(const TimeDomainSection& section);
 
 /// What to do about a controller that is not free of limit cycles; of one that is, which others it
 /// was preferred to and what its rms depends on, empty if neither. For the decision box, which

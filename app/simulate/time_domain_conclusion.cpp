@@ -44,23 +44,23 @@ std::string conclude_wind(const TimeDomainSection& section) {
     return fmt::format(
         "The simulation of {} in {:.3g} m/s of wind did not complete ({}): only linear results are "
         "available.",
-        section.law, section.wind_speed, design::to_string(wind.status));
+        section.controller, section.wind_speed, design::to_string(wind.status));
   }
   std::string text = fmt::format(
       "On the nonlinear antenna {} has {:.3f} mdeg rms in one record of {:.3g} m/s, linear "
       "prediction {:.3f}",
-      section.law, wind.beam_rms / millidegree, section.wind_speed,
+      section.controller, wind.boresight_rms / millidegree, section.wind_speed,
       wind.predicted_rms / millidegree);
-  if (wind.beam_rms <= wind.predicted_rms) return text + ".";
-  const auto most =
+  if (wind.boresight_rms <= wind.predicted_rms) return text + ".";
+  const auto maximum =
       std::ranges::max_element(wind.influences, {}, [](const design::InfluenceResult& influence) {
         return std::isfinite(influence.difference) ? influence.difference : 0.0;
       });
-  if (most != wind.influences.end() && most->difference > 0.0) {
-    text += fmt::format("; {} alone adds {:.3f}", cause_of(most->influence),
-                        most->difference / millidegree);
+  if (maximum != wind.influences.end() && maximum->difference > 0.0) {
+    text += fmt::format("; {} alone adds {:.3f}", cause_of(maximum->influence),
+                        maximum->difference / millidegree);
   }
-  const double factor = wind.beam_rms / wind.predicted_rms;
+  const double factor = wind.boresight_rms / wind.predicted_rms;
   const double excess = 100.0 * (factor - 1.0);
   if (excess < 0.5) return text + ".";
   if (factor > 1.5) {
@@ -75,25 +75,28 @@ std::string conclude_wind(const TimeDomainSection& section) {
 }
 
 // Whether by that it is left out of a choice; a law may also be because a run did not end.
-bool hunts_beyond(const std::vector<design::HuntingResult>& hunting, double error) {
-  return design::hunting_amplitude(hunting) > design::hunting_limit(error);
+bool has_limit_cycle_beyond(const std::vector<design::LimitCycleResult>& limit_cycles,
+                            double error) {
+  return design::limit_cycle_amplitude(limit_cycles) > design::limit_cycle_limit(error);
 }
 
 // What a law does that does not hold still within an rms error.
-std::string unrest(const std::vector<design::HuntingResult>& hunting, double error) {
-  if (!hunts_beyond(hunting, error)) {
+std::string unrest(const std::vector<design::LimitCycleResult>& limit_cycles, double error) {
+  if (!has_limit_cycle_beyond(limit_cycles, error)) {
     return "was not shown free of limit cycles (a run at rest or at the tracking rate did not "
            "complete)";
   }
   return fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
-                     design::hunting_amplitude(hunting) / millidegree, error / millidegree);
+                     design::limit_cycle_amplitude(limit_cycles) / millidegree,
+                     error / millidegree);
 }
 
 // The same of another such law.
-std::string unrest_too(const std::vector<design::HuntingResult>& hunting, double error) {
-  if (!hunts_beyond(hunting, error)) return "was not shown free of limit cycles either";
+std::string unrest_too(const std::vector<design::LimitCycleResult>& limit_cycles, double error) {
+  if (!has_limit_cycle_beyond(limit_cycles, error))
+    return "was not shown free of limit cycles either";
   return fmt::format("also has one beyond the budget, +-{:.2f} mdeg",
-                     design::hunting_amplitude(hunting) / millidegree);
+                     design::limit_cycle_amplitude(limit_cycles) / millidegree);
 }
 
 // What a controller that the linear plant prefers does on the nonlinear antenna.
@@ -103,11 +106,11 @@ std::string first_text(const design::SimulatedCandidate& candidate, double error
   std::string text = status == RunStatus::complete
                          ? fmt::format("it has {:.3f}", candidate.simulated_rms() / millidegree)
                          : fmt::format("its run did not complete ({})", design::to_string(status));
-  const double hunting = design::hunting_amplitude(first.hunting);
-  if (!design::holds_still(first.hunting, error)) {
-    text += " and " + unrest(first.hunting, error);
-  } else if (hunting > 0.0) {
-    text += fmt::format(" with a limit cycle of +-{:.2f}", hunting / millidegree);
+  const double limit_cycles = design::limit_cycle_amplitude(first.limit_cycles);
+  if (!design::is_limit_cycle_free(first.limit_cycles, error)) {
+    text += " and " + unrest(first.limit_cycles, error);
+  } else if (limit_cycles > 0.0) {
+    text += fmt::format(" with a limit cycle of +-{:.2f}", limit_cycles / millidegree);
   }
   return text;
 }
@@ -118,18 +121,18 @@ std::string merit(const TimeDomainSection& section, const design::SimulatedCandi
   const auto change = figure_change(section.own(), first);
   const bool tied = change && change->lower <= 0.0 && change->upper >= 0.0;
   if (!std::isfinite(other) || (rms < other && !tied)) {
-    return fmt::format("{} has {:.3f}", section.law, rms / millidegree);
+    return fmt::format("{} has {:.3f}", section.controller, rms / millidegree);
   }
   const bool alike = rms <= (1.0 + negligible_change) * other;
-  const bool hunts_less = design::hunting_amplitude(section.result.hunting) <
-                          design::hunting_amplitude(first.result.hunting);
-  return fmt::format("{} has {} and {}", section.law,
+  const bool has_smaller_limit_cycle = design::limit_cycle_amplitude(section.result.limit_cycles) <
+                                       design::limit_cycle_amplitude(first.result.limit_cycles);
+  return fmt::format("{} has {} and {}", section.controller,
                      tied ? fmt::format("{:.3f}, a tie over the same {} winds,", rms / millidegree,
                                         section.rms->records)
                      : alike
                          ? fmt::format("the same rms within {:.0f} %", 100.0 * negligible_change)
                          : fmt::format("{:.3f}", rms / millidegree),
-                     hunts_less ? "a smaller limit cycle" : "fewer gains");
+                     has_smaller_limit_cycle ? "a smaller limit cycle" : "fewer gains");
 }
 
 // By more than the winds leave open.
@@ -146,23 +149,24 @@ std::string conclude_choice(const TimeDomainSection& section) {
     return candidate.result.wind.predicted_rms;
   };
   const auto first = std::ranges::min_element(section.candidates, {}, linear);
-  if (first == section.candidates.end() || first->law == section.law) return "";
+  if (first == section.candidates.end() || first->controller == section.controller) return "";
   const double error = section.options.tightest_budget;
   const design::WindResult& wind = first->result.wind;
-  const auto& hunting = section.result.hunting;
-  std::string text = fmt::format(
-      "{} has the lowest linear rms ({:.3f} mdeg); on the nonlinear antenna {}: ", first->law,
-      wind.predicted_rms / millidegree, first_text(*first, error));
-  const bool first_still = design::holds_still(first->result.hunting, error);
+  const auto& limit_cycles = section.result.limit_cycles;
+  std::string text =
+      fmt::format("{} has the lowest linear rms ({:.3f} mdeg); on the nonlinear antenna {}: ",
+                  first->controller, wind.predicted_rms / millidegree, first_text(*first, error));
+  const bool first_still = design::is_limit_cycle_free(first->result.limit_cycles, error);
   if (!std::isfinite(section.own().simulated_rms())) {
-    text += fmt::format("the run of {} did not complete either", section.law);
-  } else if (!design::holds_still(hunting, error)) {
-    text += fmt::format("{}, but {}", merit(section, *first),
-                        first_still ? unrest(hunting, error) : unrest_too(hunting, error));
+    text += fmt::format("the run of {} did not complete either", section.controller);
+  } else if (!design::is_limit_cycle_free(limit_cycles, error)) {
+    text +=
+        fmt::format("{}, but {}", merit(section, *first),
+                    first_still ? unrest(limit_cycles, error) : unrest_too(limit_cycles, error));
   } else if (!first_still) {
-    text += fmt::format("{} has no limit cycle beyond the budget", section.law);
+    text += fmt::format("{} has no limit cycle beyond the budget", section.controller);
   } else if (is_better(section, *first)) {
-    text += fmt::format("{} is better", section.law);
+    text += fmt::format("{} is better", section.controller);
   } else {
     text += merit(section, *first);
   }
@@ -183,27 +187,30 @@ std::string integration_text(const TimeDomainSection& section) {
 }
 
 // What it does by itself at a steady rate; empty where it holds still.
-std::string hunting_text(const design::HuntingResult& hunting, double error) {
-  const char* where = hunting.rate == 0.0 ? "At rest" : "At the tracking rate";
-  if (hunting.status != RunStatus::complete) {
+std::string limit_cycle_text(const design::LimitCycleResult& limit_cycles, double error) {
+  const char* where = limit_cycles.rate == 0.0 ? "At rest" : "At the tracking rate";
+  if (limit_cycles.status != RunStatus::complete) {
     return fmt::format(" {} freedom from limit cycles was not shown ({}).", where,
-                       design::to_string(hunting.status));
+                       design::to_string(limit_cycles.status));
   }
-  if (!hunting.limit_cycle) return "";
+  if (!limit_cycles.limit_cycle) return "";
   return fmt::format(
-      " {} it has a limit cycle of +-{:.2f} mdeg{}{}.", where, hunting.beam_amplitude / millidegree,
-      hunting.some_only() ? fmt::format(" in {} of {} runs", hunting.starts_hunting, hunting.starts)
-                          : "",
-      hunts_beyond({hunting}, error)
+      " {} it has a limit cycle of +-{:.2f} mdeg{}{}.", where,
+      limit_cycles.boresight_amplitude / millidegree,
+      limit_cycles.some_only()
+          ? fmt::format(" in {} of {} runs", limit_cycles.starts_with_limit_cycle,
+                        limit_cycles.starts)
+          : "",
+      has_limit_cycle_beyond({limit_cycles}, error)
           ? fmt::format(", beyond the tightest budget of {:.3f}", error / millidegree)
           : "");
 }
 
 }  // namespace
 
-std::string slew_out_of_reach(const TimeDomainSection& section) {
+std::string slew_not_achievable(const TimeDomainSection& section) {
   const auto& slew = section.result.slew;
-  if (!slew || slew->within_reach) return "";
+  if (!slew || slew->achievable_limits) return "";
   const auto& asked = section.options.limits;
   if (!(slew->limits.rate < asked.rate)) return "";
   return fmt::format(
@@ -217,7 +224,7 @@ std::string assumed_stroke(const TimeDomainSection& section) {
   const design::WindResult& wind = section.result.wind;
   const bool rms = std::ranges::any_of(wind.influences, [&](const auto& influence) {
     return influence.influence == design::Influence::limits &&
-           influence.difference > negligible_change * wind.beam_rms;
+           influence.difference > negligible_change * wind.boresight_rms;
   });
   if (!rms && !section.slew_hangs_on_stroke) return "";
   const char* hanging = !rms ? "The achievable slew rate depends"
@@ -235,14 +242,14 @@ std::optional<TimeDomainSection> section_of(const io::Case& antenna,
                            io::loose_stribeck_text(*antenna.friction_curve)};
 }
 
-std::string not_still(const TimeDomainSection& section) {
+std::string limit_cycle_remark(const TimeDomainSection& section) {
   const double error = section.options.tightest_budget;
-  const auto& hunting = section.result.hunting;
-  if (design::holds_still(hunting, error)) return "";
+  const auto& limit_cycles = section.result.limit_cycles;
+  if (design::is_limit_cycle_free(limit_cycles, error)) return "";
   return fmt::format(
       "On the nonlinear antenna it {}: `boresight tune` searches for a controller free of limit "
       "cycles.",
-      unrest(hunting, error));
+      unrest(limit_cycles, error));
 }
 
 std::string decide(const TimeDomainSection& section) {
@@ -255,33 +262,33 @@ std::string decide(const TimeDomainSection& section) {
         "commission none before the cause is known.",
         section.wind_speed);
   }
-  if (!design::holds_still(section.result.hunting, error)) {
-    const std::string held_against = unrest(section.result.hunting, error);
+  if (!design::is_limit_cycle_free(section.result.limit_cycles, error)) {
+    const std::string evaluated_against = unrest(section.result.limit_cycles, error);
     if (section.candidates.empty()) {
       return fmt::format(
           "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Measure the friction "
           "before commissioning it.",
-          section.law, rms, held_against);
+          section.controller, rms, evaluated_against);
     }
     return fmt::format(
         "On the nonlinear antenna no controller that completes its run in wind is free of limit "
         "cycles: {} comes nearest with {:.3f} mdeg, but {}. Measure the friction before "
         "commissioning any.",
-        section.law, rms, held_against);
+        section.controller, rms, evaluated_against);
   }
   // The recommended controller itself is named first: recommended_first.
   std::vector<std::string> sentences;
   for (const auto& candidate : section.candidates) {
     const design::WindResult &wind = candidate.result.wind, &chosen = section.result.wind;
     const double simulated = candidate.simulated_rms();
-    const bool fit =
-        std::isfinite(simulated) && design::holds_still(candidate.result.hunting, error);
+    const bool fit = std::isfinite(simulated) &&
+                     design::is_limit_cycle_free(candidate.result.limit_cycles, error);
     const bool lower =
         simulated < section.own().simulated_rms() || wind.predicted_rms < chosen.predicted_rms;
     if (fit || !lower) continue;
-    sentences.push_back(
-        fmt::format("Not {}, with {:.3f} mdeg on the linear plant: on the nonlinear antenna {}.",
-                    candidate.law, wind.predicted_rms / millidegree, first_text(candidate, error)));
+    sentences.push_back(fmt::format(
+        "Not {}, with {:.3f} mdeg on the linear plant: on the nonlinear antenna {}.",
+        candidate.controller, wind.predicted_rms / millidegree, first_text(candidate, error)));
   }
   if (std::string stroke = assumed_stroke(section); !stroke.empty()) {
     sentences.push_back(std::move(stroke));
@@ -291,16 +298,16 @@ std::string decide(const TimeDomainSection& section) {
 
 std::string conclude(const TimeDomainSection& section) {
   std::string text = conclude_choice(section) + conclude_wind(section) + integration_text(section);
-  for (const auto& hunting : section.result.hunting) {
-    text += hunting_text(hunting, section.options.tightest_budget);
+  for (const auto& limit_cycles : section.result.limit_cycles) {
+    text += limit_cycle_text(limit_cycles, section.options.tightest_budget);
   }
   const auto& reversal = section.result.reversal;
   if (reversal && reversal->status == RunStatus::complete) {
     text += fmt::format(" Peak error at a velocity reversal at tracking rate: {:.1f} mdeg.",
-                        reversal->beam_error / millidegree);
+                        reversal->boresight_error / millidegree);
   }
   for (const auto& sentence :
-       {slew_out_of_reach(section), assumed_stroke(section), section.friction_doubt}) {
+       {slew_not_achievable(section), assumed_stroke(section), section.friction_doubt}) {
     if (!sentence.empty()) text += " " + sentence;
   }
   return text;

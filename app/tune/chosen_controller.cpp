@@ -20,9 +20,9 @@ constexpr auto usable = design::Fitness::unverified;
 }  // namespace
 
 ChosenController present_controller(const io::Case& antenna, const std::string& structure) {
-  for (const auto& [name, law] : present_controllers(antenna)) {
-    if (structure.empty() || law.structure == io::loop_structure(antenna, structure)) {
-      return {law, structure.empty() ? law.structure.name() : structure,
+  for (const auto& [name, controller] : present_controllers(antenna)) {
+    if (structure.empty() || controller.structure == io::loop_structure(antenna, structure)) {
+      return {controller, structure.empty() ? controller.structure.name() : structure,
               "the antenna's present gains, from the case"};
     }
   }
@@ -37,7 +37,7 @@ std::optional<ChosenController> named_controller(const io::Case& antenna, const 
   if (gains == "case") return present_controller(antenna, structure);
   auto reported = io::controller_of_report(antenna, gains, structure);
   return ChosenController{
-      std::move(reported.law), std::move(reported.structure),
+      std::move(reported.controller), std::move(reported.structure),
       reported.tuned_for.empty() ? gains : fmt::format("{}, tuned {}", gains, reported.tuned_for)};
 }
 
@@ -47,21 +47,21 @@ ChosenController recommended_controller(const io::DesignedAntenna& designed,
   if (options.interrupted && options.interrupted()) {
     throw Interrupted("interrupted while tuning the controller");
   }
-  const TunedLaw* best = recommended_or(study, usable);
+  const TunedController* best = recommended_or(study, usable);
   if (best == nullptr) {
     throw InfeasibleRequirement(
         fmt::format("{}: no controller of {} keeps the antenna stable; name other structures with "
                     "--structure or gains with --gains",
                     designed.antenna.path, fmt::join(study.tuned.structures, ", ")));
   }
-  return {best->design.tuning.law, best->structure,
+  return {best->design.tuning.controller, best->structure,
           best->tuned_for == TunedFor::nominal
               ? fmt::format("tuned now at {:g} m/s for the nominal plant: no robust controller "
                             "meets the constraints on all {} plants",
                             best->wind_speed, designed.ensemble.members.size())
               : fmt::format("tuned now at {:g} m/s, robust over {} plants{}", best->wind_speed,
                             designed.ensemble.members.size(),
-                            best->goals_met ? "" : "; VIOLATES constraints on some of them")};
+                            best->constraints_met ? "" : "; VIOLATES constraints on some of them")};
 }
 
 }  // namespace boresight::app

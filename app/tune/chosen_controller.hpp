@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_declaration.hpp>
@@ -12,7 +12,7 @@ namespace boresight::app {
 
 /// A controller of Boresight's structures and where its gains come from, in words.
 struct ChosenController {
-  control::ControlLaw law;
+  control::Controller controller;
   std::string structure;  // as the user names it
   std::string source;
 };

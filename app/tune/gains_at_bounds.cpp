@@ -37,22 +37,22 @@ std::string beyond_sampling(const design::ReachedBound& bound) {
 
 }  // namespace
 
-std::vector<std::string> gains_at_bounds(const std::vector<SearchedLaw>& laws) {
+std::vector<std::string> gains_at_bounds(const std::vector<SearchedController>& controllers) {
   std::vector<std::string> sentences;
-  for (const auto& bound : reached_bounds(laws)) {
+  for (const auto& bound : reached_bounds(controllers)) {
     std::string text = fmt::format(
         "The search ended at {}, with {}: widen it with [[tuning.bound]] or in the [[loop]].",
-        bound_text(bound), fmt::join(bound.laws, ", "));
+        bound_text(bound), fmt::join(bound.controllers, ", "));
     if (const std::string more = beyond_sampling(bound); !more.empty()) text += " " + more;
     sentences.push_back(std::move(text));
   }
   return sentences;
 }
 
-std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& laws,
+std::vector<std::string> gains_at_bounds(const std::vector<const TunedController*>& controllers,
                                          double sample_time) {
-  std::vector<SearchedLaw> searched;
-  for (const TunedLaw* row : laws) {
+  std::vector<SearchedController> searched;
+  for (const TunedController* row : controllers) {
     if (row->tuned_for == TunedFor::present) continue;
     searched.push_back({fmt::format("{} ({}, {:.3g} m/s)", row->structure,
                                     to_string(row->tuned_for), row->wind_speed),
@@ -61,9 +61,9 @@ std::vector<std::string> gains_at_bounds(const std::vector<const TunedLaw*>& law
   return gains_at_bounds(searched);
 }
 
-std::vector<std::string> corners_beyond_sampling(const SearchedLaw& law) {
+std::vector<std::string> corners_beyond_sampling(const SearchedController& controller) {
   std::vector<std::string> sentences;
-  for (const auto& bound : design::reached_bounds({law})) {
+  for (const auto& bound : design::reached_bounds({controller})) {
     if (std::string text = beyond_sampling(bound); !text.empty()) {
       sentences.push_back(std::move(text));
     }
@@ -71,24 +71,24 @@ std::vector<std::string> corners_beyond_sampling(const SearchedLaw& law) {
   return sentences;
 }
 
-std::vector<std::string> gain_trades(const std::vector<const TunedLaw*>& laws,
+std::vector<std::string> gain_trades(const std::vector<const TunedController*>& controllers,
                                      const io::GainUnits& units) {
   std::vector<std::string> sentences;
-  for (const TunedLaw* row : laws) {
+  for (const TunedController* row : controllers) {
     if (!row->trade) continue;
     sentences.push_back(trade_in_words(*row->trade, units,
                                        fmt::format("{} ({}, {:.3g} m/s)", row->structure,
                                                    to_string(row->tuned_for), row->wind_speed),
-                                       row->beam_rms,
+                                       row->boresight_rms,
                                        row->ensemble ? row->ensemble->members.size() : 0));
   }
   return sentences;
 }
 
 std::vector<std::string> about_bounds(const design::TuningStudy& study, const io::GainUnits& units,
-                                      const std::vector<const TunedLaw*>& laws) {
-  auto sentences = gains_at_bounds(laws, control::sample_time_of(study.problem.delay));
-  std::ranges::move(gain_trades(laws, units), std::back_inserter(sentences));
+                                      const std::vector<const TunedController*>& controllers) {
+  auto sentences = gains_at_bounds(controllers, control::sample_time_of(study.problem.delay));
+  std::ranges::move(gain_trades(controllers, units), std::back_inserter(sentences));
   return sentences;
 }
 

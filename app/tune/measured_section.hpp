@@ -10,7 +10,7 @@
 
 namespace boresight::app {
 
-using design::MeasuredLaw;
+using design::MeasuredController;
 
 /// What to tune on a record of the case.
 struct MeasuredTuneOptions {

@@ -6,16 +6,16 @@
 namespace boresight::app {
 
 std::string trade_in_words(const design::PositionGainTrade& trade, const io::GainUnits& units,
-                           std::string_view law, double beam_rms, std::size_t plants) {
-  const std::vector<std::string> gains = units.texts(trade.law);
+                           std::string_view controller, double boresight_rms, std::size_t plants) {
+  const std::vector<std::string> gains = units.texts(trade.controller);
   return fmt::format(
       "{} has kp at its bound: its rate-loop gain is so low that only kp*kr matters, not a sound "
       "cascade. The same product with kp = {} and kr = {} gives {:.4f} mdeg, {:+.1f} %{}. Lower "
       "the upper bound of kp with [[tuning.bound]] or in the [[loop]].",
-      law, gains.at(trade.position_gain), gains.at(trade.rate_gain), trade.beam_rms / millidegree,
-      100.0 * (trade.beam_rms / beam_rms - 1.0),
+      controller, gains.at(trade.position_gain), gains.at(trade.rate_gain),
+      trade.boresight_rms / millidegree, 100.0 * (trade.boresight_rms / boresight_rms - 1.0),
       plants > 0 ? fmt::format(", with all constraints met on {} of {} plants before re-tuning",
-                               trade.within_goals, plants)
+                               trade.within_constraints, plants)
                  : "");
 }
 

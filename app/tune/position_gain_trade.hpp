@@ -9,11 +9,11 @@
 
 namespace boresight::app {
 
-/// Explains that the bound of the position gain is ill-determined for the controller named `law`.
-/// `beam_rms`: boresight error rms of that controller (rad). `plants`: number of plants on which
-/// the trade was evaluated, 0 for none.
+/// Explains that the bound of the position gain is ill-determined for the controller named
+/// `controller`. `boresight_rms`: boresight error rms of that controller (rad). `plants`: number of
+/// plants on which the trade was evaluated, 0 for none.
 std::string trade_in_words(const design::PositionGainTrade& trade, const io::GainUnits& units,
-                           std::string_view law, double beam_rms, std::size_t plants);
+                           std::string_view controller, double boresight_rms, std::size_t plants);
 
 /// The sentence for controllers that ends_at_position_gain if no trade was searched for.
 std::string_view trade_not_looked_for();

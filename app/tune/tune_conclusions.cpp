@@ -9,8 +9,8 @@
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
+#include <boresight/app/tune/controllers_in_time.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
@@ -22,8 +22,9 @@ std::string mdeg(double angle) {
   return fmt::format("{:.4f} mdeg", angle / millidegree);
 }
 
-const TunedLaw* find(const TuneSection& section, const TunedLaw& like, TunedFor purpose) {
-  for (const auto& row : section.laws) {
+const TunedController* find(const TuneSection& section, const TunedController& like,
+                            TunedFor purpose) {
+  for (const auto& row : section.controllers) {
     if (row.structure == like.structure && row.wind_speed == like.wind_speed &&
         row.tuned_for == purpose) {
       return &row;
@@ -32,23 +33,23 @@ const TunedLaw* find(const TuneSection& section, const TunedLaw& like, TunedFor 
   return nullptr;
 }
 
-std::string limits_of(const TunedLaw& row) {
+std::string limits_of(const TunedController& row) {
   std::vector<std::string> texts;
   for (const auto& limit : row.design.tuning.limits) texts.push_back(limit.description());
-  if (texts.empty()) texts = row.design.tuning.active_goals;
+  if (texts.empty()) texts = row.design.tuning.active_constraints;
   return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; "));
 }
 
 // Behind an rms of the linear plant what the nonlinear antenna says to it; nothing where no law
 // ran there.
-std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row) {
+std::string of_the_linear_plant(const TuneSection& section, const TunedController& row) {
   const bool some_ran = std::ranges::any_of(
-      section.laws, [](const TunedLaw& other) { return other.in_time.has_value(); });
+      section.controllers, [](const TunedController& other) { return other.in_time.has_value(); });
   if (!some_ran) return "";
   if (!row.in_time) return " on the linear plant; not run on the nonlinear antenna";
   if (row.left_out()) {
     return fmt::format(" on the linear plant, but it {} on the nonlinear antenna",
-                       held_against(row));
+                       evaluated_against(row));
   }
   return fmt::format(" on the linear plant, {} on the nonlinear antenna", mdeg(row.in_time->rms()));
 }
@@ -56,20 +57,20 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedLaw& row)
 // The best usable law of each purpose and, if it is another, the one recommended; and what only the
 // bounds of the search hold of them.
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
-  std::vector<const TunedLaw*> concluded;
-  const auto say = [&](const TunedLaw& row, const std::string& subject) {
+  std::vector<const TunedController*> concluded;
+  const auto say = [&](const TunedController& row, const std::string& subject) {
     sentences.push_back(fmt::format("At {:.3g} m/s {} with {} rms{}. Active constraints: {}.{}",
-                                    row.wind_speed, subject, mdeg(row.beam_rms),
+                                    row.wind_speed, subject, mdeg(row.boresight_rms),
                                     of_the_linear_plant(section, row), limits_of(row),
                                     assumed_demand(row.design.tuning, section.demand_assumption)));
     concluded.push_back(&row);
   };
   for (const double speed : section.wind_speeds) {
     for (const auto purpose : {TunedFor::nominal, TunedFor::robust}) {
-      const TunedLaw* best = nullptr;
-      for (const auto& row : section.laws) {
+      const TunedController* best = nullptr;
+      for (const auto& row : section.controllers) {
         if (row.tuned_for != purpose || row.wind_speed != speed || !row.usable()) continue;
-        if (best == nullptr || row.beam_rms < best->beam_rms) best = &row;
+        if (best == nullptr || row.boresight_rms < best->boresight_rms) best = &row;
       }
       if (best == nullptr) continue;
       say(*best,
@@ -77,7 +78,7 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
                       purpose == TunedFor::robust ? "robust controller" : "nominal controller",
                       best->structure));
     }
-    const TunedLaw* recommended = recommended_law(section, speed);
+    const TunedController* recommended = recommended_tuned_controller(section, speed);
     if (recommended == nullptr) continue;
     if (std::ranges::find(concluded, recommended) != concluded.end()) continue;
     say(*recommended,
@@ -88,9 +89,9 @@ void conclude_best(const TuneSection& section, std::vector<std::string>& sentenc
 }
 
 void conclude_before_and_after(const TuneSection& section, std::vector<std::string>& sentences) {
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.tuned_for != TunedFor::present) continue;
-    const TunedLaw* after = find(section, row, TunedFor::nominal);
+    const TunedController* after = find(section, row, TunedFor::nominal);
     if (!row.stable()) {
       // The wind moves no pole: once is enough.
       if (row.wind_speed == section.wind_speeds.front()) {
@@ -98,14 +99,16 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
       }
       continue;
     }
-    std::string text = fmt::format("The present gains of {} have {} rms in {:.3g} m/s{}",
-                                   row.structure, mdeg(row.beam_rms), row.wind_speed,
-                                   row.goals_met ? ""
-                                                 : fmt::format(" and violate a constraint ({})",
-                                                               row.design.verification.failure));
+    std::string text = fmt::format(
+        "The present gains of {} have {} rms in {:.3g} m/s{}", row.structure,
+        mdeg(row.boresight_rms), row.wind_speed,
+        row.constraints_met
+            ? ""
+            : fmt::format(" and violate a constraint ({})", row.design.verification.failure));
     if (after != nullptr && after->usable()) {
-      text += fmt::format("; tuned, {} has {} ({:+.1f} %)", row.structure, mdeg(after->beam_rms),
-                          100.0 * (after->beam_rms / row.beam_rms - 1.0));
+      text +=
+          fmt::format("; tuned, {} has {} ({:+.1f} %)", row.structure, mdeg(after->boresight_rms),
+                      100.0 * (after->boresight_rms / row.boresight_rms - 1.0));
     }
     sentences.push_back(text + ".");
   }
@@ -113,63 +116,63 @@ void conclude_before_and_after(const TuneSection& section, std::vector<std::stri
 
 // Ensemble members on which a controller meets an rms, with what its simulation adds; 0 without an
 // ensemble.
-std::ptrdiff_t plants_kept(const TunedLaw& law, double rms) {
-  if (!law.ensemble) return 0;
-  const auto effect = law.effect().for_budgets();
-  return std::ranges::count_if(law.ensemble->members, [&](const auto& one) {
-    return one.stable && design::within_budget(effect.rms(one.beam_rms), rms);
+std::ptrdiff_t plants_kept(const TunedController& controller, double rms) {
+  if (!controller.ensemble) return 0;
+  const auto effect = controller.effect().for_budgets();
+  return std::ranges::count_if(controller.ensemble->members, [&](const auto& one) {
+    return one.stable && design::within_budget(effect.rms(one.boresight_rms), rms);
   });
 }
 
 // What a law has of a budget's rms.
-std::string figures_of(const TunedLaw& law) {
-  std::string text =
-      fmt::format("{} has {} on the case's plant", name_and_purpose(law), mdeg(law.beam_rms));
-  if (law.in_time) {
-    text += fmt::format(", {} on the nonlinear antenna", mdeg(law.in_time->rms()));
+std::string figures_of(const TunedController& controller) {
+  std::string text = fmt::format("{} has {} on the case's plant", name_and_purpose(controller),
+                                 mdeg(controller.boresight_rms));
+  if (controller.in_time) {
+    text += fmt::format(", {} on the nonlinear antenna", mdeg(controller.in_time->rms()));
   }
-  if (law.left_out()) text += fmt::format(", where it {}", held_against(law));
+  if (controller.left_out()) text += fmt::format(", where it {}", evaluated_against(controller));
   return text;
 }
 
-std::string plants_text(const TunedLaw& law, double rms) {
-  if (!law.ensemble) return "";
-  return fmt::format(", and meets it on {} of {} plants", plants_kept(law, rms),
-                     law.ensemble->members.size());
+std::string plants_text(const TunedController& controller, double rms) {
+  if (!controller.ensemble) return "";
+  return fmt::format(", and meets it on {} of {} plants", plants_kept(controller, rms),
+                     controller.ensemble->members.size());
 }
 
 // The controller tuned like the recommended one that meets a budget on more plants than that one.
 std::string alternative_text(const TuneSection& section, const design::PointingBudget& budget,
-                             const TunedLaw& recommended) {
+                             const TunedController& recommended) {
   if (!recommended.ensemble) return "";
-  const TunedLaw* most = nullptr;
+  const TunedController* maximum = nullptr;
   std::ptrdiff_t plants = plants_kept(recommended, budget.rms);
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.tuned_for != recommended.tuned_for || row.wind_speed != recommended.wind_speed) {
       continue;
     }
     if (!row.usable() || row.left_out() || !row.keeps(budget.rms)) continue;
     if (plants_kept(row, budget.rms) <= plants) continue;
     plants = plants_kept(row, budget.rms);
-    most = &row;
+    maximum = &row;
   }
-  if (most == nullptr) return "";
-  return fmt::format("; {} meets it on {}, but {}", name_and_purpose(*most), plants,
-                     why_not_recommended(section, *most, recommended));
+  if (maximum == nullptr) return "";
+  return fmt::format("; {} meets it on {}, but {}", name_and_purpose(*maximum), plants,
+                     why_not_recommended(section, *maximum, recommended));
 }
 
 // The budgets that are needed up to a wind speed, and are met there: by the law recommended or,
 // where that does not, by another.
 void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& budget : section.budgets) {
-    if (!budget.wind_speed || section.supply_wind_speed < *budget.wind_speed) continue;
-    const TunedLaw* nearest = nearest_to_budget(section, budget.wind_speed);
+    if (!budget.wind_speed || section.torque_limited_wind_speed < *budget.wind_speed) continue;
+    const TunedController* nearest = nearest_to_budget(section, budget.wind_speed);
     if (nearest == nullptr || !nearest->keeps(budget.rms)) continue;
     std::string text =
         fmt::format("The budget '{}' in band {} ({}) is met up to the required {:.3g} m/s{}",
                     budget.name, budget.band, mdeg(budget.rms), *budget.wind_speed,
                     dish_and_mast(section.wind_mast, *budget.wind_speed));
-    const TunedLaw* recommended = recommended_law(section, budget.wind_speed);
+    const TunedController* recommended = recommended_tuned_controller(section, budget.wind_speed);
     if (recommended == nullptr) {
       text += ": " + figures_of(*nearest) + plants_text(*nearest, budget.rms);
     } else if (recommended->keeps(budget.rms)) {
@@ -187,28 +190,29 @@ void conclude_budgets(const TuneSection& section, std::vector<std::string>& sent
 
 // Laws that are good for the nominal plant only, and what it costs to be good for all.
 void conclude_robustness(const TuneSection& section, std::vector<std::string>& sentences) {
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.tuned_for != TunedFor::nominal || !row.usable() || !row.ensemble) continue;
     const auto& ensemble = *row.ensemble;
     const auto all = static_cast<int>(ensemble.members.size());
-    if (ensemble.within_goals == all) continue;
+    if (ensemble.within_constraints == all) continue;
     const auto& worst = ensemble.members[ensemble.worst];
     std::string text = fmt::format(
         "Tuned for the nominal plant, {} at {:.3g} m/s meets the constraints on {} of {} plants; "
         "the worst, {}, {}",
-        row.structure, row.wind_speed, ensemble.within_goals, all, worst.name,
+        row.structure, row.wind_speed, ensemble.within_constraints, all, worst.name,
         worst.stable
-            ? fmt::format("exceeds a limit by {:.0f} %", 100.0 * (worst.worst_goal_ratio - 1.0))
+            ? fmt::format("exceeds a limit by {:.0f} %", 100.0 * (worst.worst_constraint - 1.0))
             : "is unstable");
-    const TunedLaw* robust = find(section, row, TunedFor::robust);
+    const TunedController* robust = find(section, row, TunedFor::robust);
     if (robust != nullptr && robust->usable()) {
       text += fmt::format(". Meeting them on every plant costs {:+.1f} % of rms ({})",
-                          100.0 * (robust->beam_rms / row.beam_rms - 1.0), mdeg(robust->beam_rms));
+                          100.0 * (robust->boresight_rms / row.boresight_rms - 1.0),
+                          mdeg(robust->boresight_rms));
     } else if (robust != nullptr && robust->stable()) {
       text += fmt::format(
           ". No {} controller found meets them on every plant; the nearest exceeds a limit by "
           "{:.1f} %",
-          row.structure, 100.0 * (robust->design.tuning.worst_goal_ratio - 1.0));
+          row.structure, 100.0 * (robust->design.tuning.worst_constraint - 1.0));
     }
     sentences.push_back(text + ".");
   }

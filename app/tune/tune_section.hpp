@@ -10,9 +10,9 @@
 
 namespace boresight::app {
 
-using design::LawInTime;
+using design::ControllerInTime;
+using design::TunedController;
 using design::TunedFor;
-using design::TunedLaw;
 
 /// What cannot be reached, and what comes closest.
 struct Shortfall {
@@ -27,13 +27,13 @@ struct TuneSection : design::TuningStudy {
   /// What goals on the valve's demand in gusts rest on where no number of it is stated.
   std::string demand_assumption;
   std::vector<Shortfall> shortfalls;
-  /// Of shown_law on the ensemble.
+  /// Of shown_controller on the ensemble.
   std::optional<design::EnsembleCurves> curves;
 
   /// The gains of a row in the structure's order, in the engineer's units; none of an unstable one.
-  std::vector<std::string> gains_of(const TunedLaw& row) const {
+  std::vector<std::string> gains_of(const TunedController& row) const {
     if (!row.stable()) return {};
-    return gain_units.texts(row.design.tuning.law);
+    return gain_units.texts(row.design.tuning.controller);
   }
   /// "PI, robust, 10 m/s" of each tuning that an interrupt left out.
   std::vector<std::string> not_run_texts() const;

@@ -11,7 +11,7 @@
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/wind_mast.hpp>
-#include <boresight/app/tune/laws_in_time.hpp>
+#include <boresight/app/tune/controllers_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
@@ -28,62 +28,62 @@ namespace boresight::app {
 namespace {
 
 using design::GoalKind;
-using design::GoalRatio;
+using design::NormalisedConstraint;
 
-bool tuned(const TunedLaw& row) {
+bool tuned(const TunedController& row) {
   return row.tuned_for != TunedFor::present;
 }
 
-std::vector<const TunedLaw*> rows_at(const TuneSection& section, double wind_speed) {
-  std::vector<const TunedLaw*> rows;
-  for (const auto& row : section.laws) {
+std::vector<const TunedController*> rows_at(const TuneSection& section, double wind_speed) {
+  std::vector<const TunedController*> rows;
+  for (const auto& row : section.controllers) {
     if (tuned(row) && row.wind_speed == wind_speed) rows.push_back(&row);
   }
   return rows;
 }
 
 // A goal's limit and what the law has instead, in the units of reports.
-std::string found_and_limit(const GoalRatio& goal, const design::HardGoals& goals) {
+std::string found_and_limit(const NormalisedConstraint& goal, const design::Constraints& goals) {
   const std::size_t b = goal.loop_break ? static_cast<std::size_t>(*goal.loop_break) : 0;
-  const auto most = [&](double limit, const char* unit) {
+  const auto maximum = [&](double limit, const char* unit) {
     return fmt::format("{:.4g}{}, limit at most {:.4g}", limit * goal.ratio, unit, limit);
   };
-  const auto least = [&](double limit, double found, const char* unit) {
+  const auto minimum = [&](double limit, double found, const char* unit) {
     return fmt::format("{:.4g}{}, limit at least {:.4g}", found, unit, limit);
   };
   constexpr double degrees = 180.0 / std::numbers::pi;
   switch (goal.kind) {
     case GoalKind::sensitivity_peak:
-      return most(goals.sensitivity_peak.at(b), "");
-    case GoalKind::valve_effort:
-      return most(goals.valve_effort, " rad/s");
+      return maximum(goals.sensitivity_peak.at(b), "");
+    case GoalKind::control_effort:
+      return maximum(goals.control_effort, " rad/s");
     case GoalKind::gain_margin: {
       const double limit = goals.gain_margin.at(b).value_or(1.0);
-      return least(20.0 * std::log10(limit), 20.0 * std::log10(limit / goal.ratio), " dB");
+      return minimum(20.0 * std::log10(limit), 20.0 * std::log10(limit / goal.ratio), " dB");
     }
     case GoalKind::phase_margin: {
       const double limit = goals.phase_margin.at(b).value_or(0.0) * degrees;
-      return least(limit, limit / goal.ratio, " deg");
+      return minimum(limit, limit / goal.ratio, " deg");
     }
     case GoalKind::bandwidth: {
       const double limit = goals.bandwidth.value_or(0.0) / two_pi;
-      return least(limit, limit / goal.ratio, " Hz");
+      return minimum(limit, limit / goal.ratio, " Hz");
     }
     case GoalKind::gust_demand:
-      return most(goals.gust_demand.value_or(0.0), " rad/s");
+      return maximum(goals.gust_demand.value_or(0.0), " rad/s");
     case GoalKind::gust_torque:
-      return most(goals.gust_torque.value_or(0.0), " N.m");
+      return maximum(goals.gust_torque.value_or(0.0), " N.m");
   }
   return "";
 }
 
 // Whether one of its corners does nothing that a sampled controller can do.
-bool has_idle_corner(const TuneSection& section, const TunedLaw& row) {
+bool has_idle_corner(const TuneSection& section, const TunedController& row) {
   return ends_beyond_sampling(row.design.tuning, control::sample_time_of(section.problem.delay));
 }
 
 // Every goal that stands in the way, once.
-std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) {
+std::string standing_goals(const TunedController& row, const design::Constraints& goals) {
   std::vector<std::string> texts;
   for (const auto& limit : row.design.tuning.limits) {
     std::string text = fmt::format("{}{}: {}", design::describe(limit.goal),
@@ -91,13 +91,13 @@ std::string standing_goals(const TunedLaw& row, const design::HardGoals& goals) 
                                    found_and_limit(limit.goal, goals));
     if (std::ranges::find(texts, text) == texts.end()) texts.push_back(std::move(text));
   }
-  if (texts.empty()) texts = row.design.tuning.active_goals;
+  if (texts.empty()) texts = row.design.tuning.active_constraints;
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 // The rms in wind that budgets are held against, and what else the nonlinear antenna adds.
-std::string rms_text(const TunedLaw& row) {
-  const double linear = row.beam_rms / millidegree;
+std::string rms_text(const TunedController& row) {
+  const double linear = row.boresight_rms / millidegree;
   if (!row.in_time) return fmt::format("{:.4f} mdeg", linear);
   if (!std::isfinite(row.in_time->rms())) {
     return fmt::format("{:.4f} mdeg on the linear plant", linear);
@@ -107,26 +107,26 @@ std::string rms_text(const TunedLaw& row) {
       simulated > linear
           ? fmt::format("{:.4f} mdeg on the nonlinear antenna ({:.4f} linear)", simulated, linear)
           : fmt::format("{:.4f} mdeg on the linear plant ({:.4f} simulated)", linear, simulated);
-  if (row.in_time->hunting > 0.0) {
+  if (row.in_time->limit_cycles > 0.0) {
     text += fmt::format(", {:.4f} with the limit cycle", row.budget_rms() / millidegree);
   }
   return text;
 }
 
 // What the linear plant puts before the law that is named, and why it is not the one.
-std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
+std::string left_out_text(const TuneSection& section, const TunedController& named) {
   if (named.left_out()) {
     return fmt::format(" On the nonlinear antenna it {}, and no other {} controller is fit.",
-                       held_against(named), to_string(named.tuned_for));
+                       evaluated_against(named), to_string(named.tuned_for));
   }
   std::vector<std::string> texts;
   for (const auto* row : rows_at(section, named.wind_speed)) {
     if (row->tuned_for != named.tuned_for || !row->usable() || !row->left_out() ||
-        row->beam_rms >= named.budget_rms()) {
+        row->boresight_rms >= named.budget_rms()) {
       continue;
     }
     texts.push_back(fmt::format("{}, {:.4f} mdeg on the linear plant, {}", name_and_purpose(*row),
-                                row->beam_rms / millidegree, held_against(*row)));
+                                row->boresight_rms / millidegree, evaluated_against(*row)));
   }
   if (texts.empty()) return "";
   return fmt::format(" Excluded by the nonlinear antenna: {}.", fmt::join(texts, "; "));
@@ -135,9 +135,9 @@ std::string left_out_text(const TuneSection& section, const TunedLaw& named) {
 // The law that comes nearest to an rms that none reaches, behind the one recommended if that is
 // another. `more_of`: what is said of a law behind its rms.
 template <typename MoreOf>
-std::string nearest_text(const TuneSection& section, const TunedLaw& nearest,
+std::string nearest_text(const TuneSection& section, const TunedController& nearest,
                          const MoreOf& more_of) {
-  const TunedLaw* recommended = recommended_law(section, nearest.wind_speed);
+  const TunedController* recommended = recommended_tuned_controller(section, nearest.wind_speed);
   if (recommended == nullptr || recommended == &nearest) {
     return fmt::format("{} comes nearest with {}{}.{}", name_and_purpose(nearest),
                        rms_text(nearest), more_of(nearest), left_out_text(section, nearest));
@@ -152,16 +152,16 @@ std::string nearest_text(const TuneSection& section, const TunedLaw& nearest,
 // Goals that no law of one wind speed and purpose meets.
 void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose,
                       std::vector<Shortfall>& shortfalls) {
-  const TunedLaw* nearest = nullptr;
+  const TunedController* nearest = nullptr;
   std::vector<std::string> names;
   bool any = false;
   for (const auto* row : rows_at(section, speed)) {
     if (row->tuned_for != purpose) continue;
     any = true;
-    if (row->goals_met) return;
+    if (row->constraints_met) return;
     names.push_back(row->structure);
-    if (row->stable() && (nearest == nullptr || row->design.tuning.worst_goal_ratio <
-                                                    nearest->design.tuning.worst_goal_ratio)) {
+    if (row->stable() && (nearest == nullptr || row->design.tuning.worst_constraint <
+                                                    nearest->design.tuning.worst_constraint)) {
       nearest = row;
     }
   }
@@ -182,7 +182,7 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
                    standing > 1 ? ": the constraints are mutually incompatible" : ""),
        fmt::format("{} comes nearest, {:.1f} % beyond its worst limits: {}.{}",
                    name_and_purpose(*nearest),
-                   100.0 * (nearest->design.tuning.worst_goal_ratio - 1.0),
+                   100.0 * (nearest->design.tuning.worst_constraint - 1.0),
                    standing_goals(*nearest, section.goals),
                    assumed_demand(nearest->design.tuning, section.demand_assumption))});
 }
@@ -190,7 +190,7 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
 // The structures that were tuned, in the order of the table.
 std::vector<std::string> structures_of(const TuneSection& section) {
   std::vector<std::string> names;
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.tuned_for == TunedFor::present) continue;
     if (std::ranges::find(names, row.structure) == names.end()) names.push_back(row.structure);
   }
@@ -198,15 +198,17 @@ std::vector<std::string> structures_of(const TuneSection& section) {
 }
 
 // Up to which wind speed a law meets a budget.
-std::string reached_text(const TuneSection& section, const TunedLaw& law, double limit) {
-  return fmt::format("; the budget is met up to {:.3g} m/s{}{}{}", limit,
-                     dish_and_mast(section.wind_mast, limit), law.in_time ? " by simulation" : "",
-                     climate_text(section.climate, limit));
+std::string reached_text(const TuneSection& section, const TunedController& controller,
+                         double limit) {
+  return fmt::format(
+      "; the budget is met up to {:.3g} m/s{}{}{}", limit, dish_and_mast(section.wind_mast, limit),
+      controller.in_time ? " by simulation" : "", climate_text(section.climate, limit));
 }
 
 // Behind what no law keeps: why those do not whose rms, at the wind speed of `best` and tuned for
 // the same, is within it; empty where there is none, and the rms is the reason.
-std::string barred_by_hunting(const TuneSection& section, const TunedLaw& best, double rms) {
+std::string barred_by_limit_cycle(const TuneSection& section, const TunedController& best,
+                                  double rms) {
   bool any = false, seen = true;
   for (const auto* row : rows_at(section, best.wind_speed)) {
     if (row->tuned_for != best.tuned_for || !row->usable() || !row->in_time) continue;
@@ -214,7 +216,7 @@ std::string barred_by_hunting(const TuneSection& section, const TunedLaw& best, 
       continue;
     if (row->keeps(rms)) continue;
     any = true;
-    seen = seen && row->in_time->hunting_seen;
+    seen = seen && row->in_time->limit_cycle_seen;
   }
   if (!any) return "";
   return seen ? ": the controllers that meet it in wind limit-cycle beyond it"
@@ -226,7 +228,7 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
   for (std::size_t i = 0; i < section.budgets.size(); ++i) {
     const design::PointingBudget& budget = section.budgets[i];
     if (!budget.wind_speed) continue;
-    if (section.supply_wind_speed < *budget.wind_speed) {
+    if (section.torque_limited_wind_speed < *budget.wind_speed) {
       shortfalls.push_back(
           {fmt::format(
                "The budget '{}' in band {} cannot be met up to {:.3g} m/s{} by any controller.",
@@ -234,20 +236,22 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
                dish_and_mast(section.wind_mast, *budget.wind_speed)),
            fmt::format("At {:.1f} m/s the mean wind takes all supply torque that friction and "
                        "offset leave.",
-                       section.supply_wind_speed)});
+                       section.torque_limited_wind_speed)});
       continue;
     }
-    const TunedLaw* best = nearest_to_budget(section, budget.wind_speed);
+    const TunedController* best = nearest_to_budget(section, budget.wind_speed);
     if (best == nullptr || best->keeps(budget.rms)) continue;
-    const auto more_of = [&](const TunedLaw& law) {
+    const auto more_of = [&](const TunedController& controller) {
       return fmt::format(
           ", {} dB on two equal axes in band {}{}",
-          loss_text(design::pointing_loss_db(law.budget_rms(), budget.beamwidth,
+          loss_text(design::pointing_loss_db(controller.budget_rms(), budget.beamwidth,
                                              design::LossConvention::mean_loss_two_axes),
                     3),
-          budget.band, law.left_out() ? "" : reached_text(section, law, law.speed_limits[i]));
+          budget.band,
+          controller.left_out() ? ""
+                                : reached_text(section, controller, controller.speed_limits[i]));
     };
-    const std::string barred = barred_by_hunting(section, *best, budget.rms);
+    const std::string barred = barred_by_limit_cycle(section, *best, budget.rms);
     shortfalls.push_back(
         {fmt::format("The budget '{}' in band {} ({:.4f} mdeg) {} up to {:.3g} m/s{} by {} ({}){}.",
                      budget.name, budget.band, budget.rms / millidegree,
@@ -257,33 +261,33 @@ void find_unreached_rms(const TuneSection& section, std::vector<Shortfall>& shor
                      fmt::join(structures_of(section), ", "), barred),
          nearest_text(section, *best, more_of)});
   }
-  if (!section.beam_rms_goal) return;
+  if (!section.boresight_rms_goal) return;
   const double speed = section.wind_speeds.front();
-  const TunedLaw* best = nearest_to_budget(section, speed);
-  if (best == nullptr || best->keeps(*section.beam_rms_goal)) return;
-  const std::string barred = barred_by_hunting(section, *best, *section.beam_rms_goal);
+  const TunedController* best = nearest_to_budget(section, speed);
+  if (best == nullptr || best->keeps(*section.boresight_rms_goal)) return;
+  const std::string barred = barred_by_limit_cycle(section, *best, *section.boresight_rms_goal);
   shortfalls.push_back({fmt::format("A boresight error of {:.4f} mdeg rms {} at {:.3g} m/s{}{}.",
-                                    *section.beam_rms_goal / millidegree,
+                                    *section.boresight_rms_goal / millidegree,
                                     barred.empty() ? "cannot be met" : "is met", speed,
                                     barred.empty() ? "" : " by no tuned controller", barred),
-                        nearest_text(section, *best, [](const TunedLaw&) { return ""; })});
+                        nearest_text(section, *best, [](const TunedController&) { return ""; })});
 }
 
 }  // namespace
 
-std::string name_and_purpose(const TunedLaw& row) {
+std::string name_and_purpose(const TunedController& row) {
   return fmt::format("{} ({})", row.structure, to_string(row.tuned_for));
 }
 
-std::string why_not_recommended(const TuneSection& section, const TunedLaw& other,
-                                const TunedLaw& recommended) {
+std::string why_not_recommended(const TuneSection& section, const TunedController& other,
+                                const TunedController& recommended) {
   std::vector<std::string> reasons;
   const auto points_worse = [&](double rms, double by_recommended) {
     reasons.push_back(fmt::format("has {:.4f} mdeg rms instead of {:.4f}", rms / millidegree,
                                   by_recommended / millidegree));
   };
   if (other.in_time && recommended.in_time) {
-    const LawInTime &run = *other.in_time, &chosen = *recommended.in_time;
+    const ControllerInTime &run = *other.in_time, &chosen = *recommended.in_time;
     if (const auto change = figure_change(recommended, other);
         change && change->lower <= 0.0 && change->upper >= 0.0) {
       return fmt::format(
@@ -292,24 +296,26 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
           chosen.expected->records, 100.0 * change->value, 100.0 * change->lower,
           100.0 * change->upper);
     }
-    const bool hunts_more = run.hunting * (1.0 - negligible_change) > chosen.hunting;
+    const bool has_larger_limit_cycle =
+        run.limit_cycles * (1.0 - negligible_change) > chosen.limit_cycles;
     // A negligible loss in wind is not why, where hunting is.
-    const double share = hunts_more ? negligible_change : 0.0;
-    if (run.rms() > (1.0 + share) * chosen.rms()) points_worse(run.rms(), chosen.rms());
-    if (hunts_more) {
+    const double fraction = has_larger_limit_cycle ? negligible_change : 0.0;
+    if (run.rms() > (1.0 + fraction) * chosen.rms()) points_worse(run.rms(), chosen.rms());
+    if (has_larger_limit_cycle) {
       reasons.push_back(fmt::format("limit-cycles by +-{:.4f} mdeg instead of +-{:.4f}",
-                                    run.hunting / millidegree, chosen.hunting / millidegree));
+                                    run.limit_cycles / millidegree,
+                                    chosen.limit_cycles / millidegree));
     }
   } else if (recommended.in_time) {
     reasons.emplace_back("was not run on the nonlinear antenna");
-  } else if (other.beam_rms > recommended.beam_rms) {
-    points_worse(other.beam_rms, recommended.beam_rms);
+  } else if (other.boresight_rms > recommended.boresight_rms) {
+    points_worse(other.boresight_rms, recommended.boresight_rms);
   }
   if (has_idle_corner(section, other) && !has_idle_corner(section, recommended)) {
     reasons.emplace_back("has a corner beyond half the sampling rate, where it has no effect");
   }
-  const auto gains = [](const TunedLaw& row) {
-    return row.design.tuning.law.structure.gains().size();
+  const auto gains = [](const TunedController& row) {
+    return row.design.tuning.controller.structure.gains().size();
   };
   if (reasons.empty() && gains(other) > gains(recommended)) {
     reasons.push_back(fmt::format("is better by no more than {:.0f} % with {} gains instead of {}",
@@ -320,7 +326,7 @@ std::string why_not_recommended(const TuneSection& section, const TunedLaw& othe
   return fmt::format("{}", fmt::join(reasons, ", and "));
 }
 
-std::string ties_text(const design::TuningStudy& study, const TunedLaw& recommended) {
+std::string ties_text(const design::TuningStudy& study, const TunedController& recommended) {
   std::vector<std::string> names;
   for (const auto* row : tied_with(study, recommended)) names.push_back(name_and_purpose(*row));
   if (names.empty()) return "";
@@ -357,14 +363,14 @@ std::vector<Shortfall> find_shortfalls(const TuneSection& section) {
   std::vector<Shortfall> shortfalls;
   // An interrupted study proves nothing infeasible.
   if (!section.not_run.empty()) return shortfalls;
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.design.tuning.interrupted) return shortfalls;
   }
   for (const double speed : section.wind_speeds) {
     const std::size_t before = shortfalls.size();
     find_unmet_goals(section, speed, TunedFor::nominal, shortfalls);
     // A soft goal over the ensemble asks for its hard goals there.
-    const bool asked = section.soft_goal.kind != design::SoftGoalKind::nominal;
+    const bool asked = section.objective.kind != design::ObjectiveKind::nominal;
     if (asked && shortfalls.size() == before) {
       find_unmet_goals(section, speed, TunedFor::robust, shortfalls);
     }

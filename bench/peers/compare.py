@@ -17,7 +17,7 @@ import tempfile
 ITEMS = {
     "response": ("1000-point frequency response t -> y", 3, 1e-8, "fr"),
     "rms": ("rms of y in unit white noise", 1, 1e-9, "h2"),
-    "sensitivity_peak": ("peak of S", 1, 1e-6, "hinf_S"),
+    "sensitivity_peak": ("Ms", 1, 1e-6, "hinf_S"),
     "wind_peak": ("peak of t -> y", 1, 1e-6, "hinf_W"),
     "margins": ("all margins of the loop", 6, 1e-8, "mar"),
     "simulation": ("600 000 steps of 1 ms", 3, 1e-8, "lsim"),
@@ -28,7 +28,7 @@ ITEMS = {
     "lyapunov": ("Lyapunov equation, trace", 1, 1e-8, None),
     "riccati": ("Riccati equation, trace", 1, 1e-6, None),
     "discrete_riccati": ("discrete Riccati equation, trace", 1, 1e-6, None),
-    "tune": ("four gains for the least rms with the peak of S at most 2", 2, 1e-6, "tune"),
+    "tune": ("four gains for the least rms with Ms at most 2", 2, 1e-6, "tune"),
 }
 SMALLEST_ONLY = {"lyapunov", "riccati", "discrete_riccati"}
 SIMULATED = {5, 50}

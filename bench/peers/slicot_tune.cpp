@@ -130,8 +130,8 @@ void tune(int modes) {
     optimiser.set_maxeval(5000);
     optimiser.set_initial_step(0.2);
     x = {std::log(0.2), std::log(1.2), std::log(0.3), std::log(0.03)};
-    double least = 0.0;
-    optimiser.optimize(x, least);
+    double minimum = 0.0;
+    optimiser.optimize(x, minimum);
     times.push_back(cpu_seconds() - begin);
   }
   std::sort(times.begin(), times.end());

@@ -89,8 +89,8 @@ DecayingResponse::Point DecayingResponse::start(const Eigen::VectorXd& state) co
 
 DecayingResponse::Node DecayingResponse::node(double time, Eigen::VectorXd state) {
   const Eigen::Index n = a_.rows();
-  constexpr double most_work = 1e10;  // multiplications
-  if (++nodes_ * static_cast<double>(n * n) > most_work) {
+  constexpr double max_work = 1e10;  // multiplications
+  if (++nodes_ * static_cast<double>(n * n) > max_work) {
     throw NumericalFailure(
         "step_characteristics: time constants and frequencies are too many decades apart to follow "
         "the response; leave out what is too fast or too slow to matter");

@@ -166,7 +166,7 @@ LoopOnGrid LoopResponse::on_grid(Eigen::ArrayXd angular_frequency) {
   }
   // Two roundings can agree by chance at one point, hardly at seven in a row.
   constexpr Eigen::Index reach = 3;
-  constexpr double neighbourhood = 1.3, least = 1e-13, caution = 32.0;
+  constexpr double neighbourhood = 1.3, minimum = 1e-13, caution = 32.0;
   result.uncertainty.resize(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double w = angular_frequency[i];
@@ -178,7 +178,7 @@ LoopOnGrid LoopResponse::on_grid(Eigen::ArrayXd angular_frequency) {
         largest = std::max(largest, raw[k]);
       }
     }
-    result.uncertainty[i] = least + caution * largest;
+    result.uncertainty[i] = minimum + caution * largest;
   }
   result.frequency = std::move(angular_frequency);
   return result;

@@ -78,10 +78,10 @@ Margins margins(const plant::ModalResponse& loop, const ModalMarginOptions& opti
       }
     }
     if (between.empty()) break;
-    if (between.size() + static_cast<std::size_t>(w.size()) > options.most_points) {
+    if (between.size() + static_cast<std::size_t>(w.size()) > options.max_points) {
       throw NumericalFailure(fmt::format(
           "margins: following the loop gain takes more than {} frequencies; narrow their limits",
-          options.most_points));
+          options.max_points));
     }
     const auto more = static_cast<Eigen::Index>(between.size());
     const Eigen::ArrayXd added = Eigen::Map<const Eigen::ArrayXd>(between.data(), more);

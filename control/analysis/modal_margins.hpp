@@ -16,7 +16,7 @@ struct ModalMarginOptions {
   /// The grid is halved until L changes by less than this in angle (rad) and in ln|L| from point to
   /// point. This also finds lightly damped zeros, which no list of poles contains.
   double largest_turn = 0.35;
-  std::size_t most_points = 1000000;
+  std::size_t max_points = 1000000;
 };
 
 /// Margins of an open loop L given as a modal system's response, including exact dead times, at

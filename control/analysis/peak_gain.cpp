@@ -26,9 +26,9 @@ void check(const PeakGainOptions& options) {
         fmt::format("peak_gain: expected a relative tolerance of 1e-14 or more, found {}",
                     options.relative_tolerance));
   }
-  if (options.most_intervals < 2) {
+  if (options.max_intervals < 2) {
     throw InvalidInput(
-        fmt::format("peak_gain: expected at least 2 intervals, found {}", options.most_intervals));
+        fmt::format("peak_gain: expected at least 2 intervals, found {}", options.max_intervals));
   }
 }
 
@@ -96,7 +96,7 @@ PeakGain search(Enclose enclose, double highest_pole, const PeakGainOptions& opt
     result.closed = result.upper <= result.lower * (1.0 + options.relative_tolerance);
     const FrequencyInterval& whole = top.interval;
     const bool narrow = whole.half_width <= 4.0 * epsilon * (whole.centre + whole.half_width);
-    if (result.closed || narrow || result.intervals + 2 > options.most_intervals) break;
+    if (result.closed || narrow || result.intervals + 2 > options.max_intervals) break;
     waiting.pop();
     const double half = 0.5 * whole.half_width;
     add({whole.centre - half, half, whole.reciprocal});

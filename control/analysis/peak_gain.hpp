@@ -21,7 +21,7 @@ struct PeakGain {
 
 struct PeakGainOptions {
   double relative_tolerance = 1e-9;  // of upper - lower
-  std::size_t most_intervals = 200000;
+  std::size_t max_intervals = 200000;
 };
 
 /// sup |H(j w)| from one input to one output of a modal system with exact dead times. The response

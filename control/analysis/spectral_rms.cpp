@@ -200,24 +200,24 @@ SpectralRms spectral_rms(const plant::ModalResponse& response, const SpectralRms
 
   // Decade by decade outwards until what lies beyond does not count: below, a flat density in w;
   // above, a falling power of w.
-  constexpr int most_decades = 40;
-  const double share = 0.01 * options.relative_tolerance;
+  constexpr int max_decades = 40;
+  const double fraction = 0.01 * options.relative_tolerance;
   double tails = integrand.at(low);
-  for (int decade = 0; decade < most_decades && tails > share * total(); ++decade) {
+  for (int decade = 0; decade < max_decades && tails > fraction * total(); ++decade) {
     panels.push_back({low - std::numbers::ln10, low});
     low -= std::numbers::ln10;
     integrate(integrand, panels, panels.size() - 1);
     tails = integrand.at(low);
   }
   double above = integrand.at(high), falling = 0.0;
-  for (int decade = 0; decade < most_decades; ++decade) {
+  for (int decade = 0; decade < max_decades; ++decade) {
     falling = std::log(integrand.at(high - 1.0) / above);
-    if (above <= share * total() && (falling > 0.5 || above == 0.0)) break;
+    if (above <= fraction * total() && (falling > 0.5 || above == 0.0)) break;
     panels.push_back({high, high + std::numbers::ln10});
     high += std::numbers::ln10;
     integrate(integrand, panels, panels.size() - 1);
     above = integrand.at(high);
-    if (decade + 1 == most_decades || !(above <= total() * 1e6)) {
+    if (decade + 1 == max_decades || !(above <= total() * 1e6)) {
       throw NumericalFailure(
           fmt::format("spectral_rms: expected a response that falls off with frequency, found a "
                       "density of {:.3g} of the total per e-fold at {:.3g} rad/s; white noise "
@@ -250,7 +250,7 @@ SpectralRms spectral_rms(const plant::ModalResponse& response, const SpectralRms
     }
     std::erase_if(panels, [](const Panel& panel) { return panel.high <= panel.low; });
     const auto more = static_cast<std::size_t>(points) * halves.size();
-    if (halves.empty() || result.evaluations + more > options.most_evaluations) break;
+    if (halves.empty() || result.evaluations + more > options.max_evaluations) break;
     const std::size_t first = panels.size();
     panels.insert(panels.end(), halves.begin(), halves.end());
     integrate(integrand, panels, first);

@@ -18,7 +18,7 @@ struct SpectralRms {
 
 struct SpectralRmsOptions {
   double relative_tolerance = 1e-8;
-  std::size_t most_evaluations = 200000;
+  std::size_t max_evaluations = 200000;
   /// One-sided spectrum of the noise per Hz at a frequency in Hz, for noise not shaped by a filter
   /// within the system. Default: white noise of unit intensity, 2 per Hz.
   std::function<double(double)> spectrum = {};

@@ -201,13 +201,13 @@ Findings search_samples(const Transient& transient, const StepOptions& options) 
   if (size == 0.0) size = (bound * x).norm();
   found.highest = found.lowest = first;
   found.settled = 0.0;
-  constexpr double most_work = 1e10;  // multiplications
-  const auto most_samples =
-      static_cast<Eigen::Index>(most_work / static_cast<double>(transient.a.size() + 1));
+  constexpr double max_work = 1e10;  // multiplications
+  const auto max_samples =
+      static_cast<Eigen::Index>(max_work / static_cast<double>(transient.a.size() + 1));
   for (Eigen::Index k = 0; (bound * x).norm() > over * size; ++k) {
-    if (k == most_samples) {
+    if (k == max_samples) {
       throw NumericalFailure(fmt::format(
-          "step_characteristics: the response has not settled after {} samples", most_samples));
+          "step_characteristics: the response has not settled after {} samples", max_samples));
     }
     const double value = transient.c.dot(x);
     const double time = static_cast<double>(k) * transient.sample_time;

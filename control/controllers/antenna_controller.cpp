@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/antenna_controller.hpp>
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
@@ -19,28 +19,28 @@ enum Input : Index { tachometer, angle_error, rate_feedforward, torque };
 enum Measured : Index { measured_rate, measured_angle, measured_torque };
 
 // Product of the gain blocks of a path.
-double path_gain(const ControlLaw& law, LoopPath path) {
+double path_gain(const Controller& controller, LoopPath path) {
   double product = 1.0;
   std::size_t k = 0;
-  for (const LoopBlock& block : law.structure.blocks()) {
-    if (block.path == path && block.kind == BlockKind::gain) product *= law.gains[k];
+  for (const LoopBlock& block : controller.structure.blocks()) {
+    if (block.path == path && block.kind == BlockKind::gain) product *= controller.gains[k];
     k += block.gains.size();
   }
   return product;
 }
 
 // Q'(0) of a pressure path, s kT/wd of a washed out gain: from its response well below all corners.
-double pressure_slope(const ControlLaw& law) {
-  if (!law.structure.has(LoopPath::pressure)) return 0.0;
+double pressure_slope(const Controller& controller) {
+  if (!controller.structure.has(LoopPath::pressure)) return 0.0;
   constexpr double low = 1e-6;
-  return compensator_response(law, low).pressure.imag() / low;
+  return compensator_response(controller, low).pressure.imag() / low;
 }
 
 }  // namespace
 
-Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const ControlLaw& law,
+Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const Controller& controller,
                               double delay) {
-  validate(law);
+  validate(controller);
   if (!(delay >= 0.0) || !std::isfinite(delay)) {
     throw InvalidInput(
         fmt::format("plant_feedforward: expected a delay of 0 or more, found {} s", delay));
@@ -55,11 +55,11 @@ Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const ControlL
   result.acceleration_to_valve_command =
       (drive.leakage_rate * inertia + drive.viscous_friction) / drive.oil_stiffness +
       opening * (2.0 * drive.valve_damping / drive.valve_corner + delay) +
-      pressure_slope(law) * drive.viscous_friction;
+      pressure_slope(controller) * drive.viscous_friction;
   return result;
 }
 
-AntennaController::AntennaController(const ControlLaw& law, double sample_time,
+AntennaController::AntennaController(const Controller& controller, double sample_time,
                                      const AntennaControllerOptions& options)
     : sample_time_(sample_time), options_(options), outputs_{"valve_command"} {
   const auto& forward = options.feedforward;
@@ -71,8 +71,9 @@ AntennaController::AntennaController(const ControlLaw& law, double sample_time,
                     "found a limit of {} rad/s",
                     options.command_limit));
   }
-  const plant::StateSpace sampled = sampled_law(law, sample_time);
-  reads_torque_ = law.structure.has(LoopPath::pressure) || law.structure.has(LoopPath::compliance);
+  const plant::StateSpace sampled = sampled_controller(controller, sample_time);
+  reads_torque_ = controller.structure.has(LoopPath::pressure) ||
+                  controller.structure.has(LoopPath::compliance);
   std::vector<std::string> ports{"tachometer", "encoder", "rate_disturbance"};
   inputs_ = {"tachometer", "encoder"};
   if (reads_torque_) {
@@ -96,14 +97,14 @@ AntennaController::AntennaController(const ControlLaw& law, double sample_time,
   // A pole within rounding of 1: a double one is known to the root of the working precision.
   constexpr double integrates = 1.0 - 1e-7;
   if (!options.anti_windup || radius(back_calculation_) < integrates) return;
-  const Eigen::VectorXd whole =
-      -b_.col(angle_error) / (path_gain(law, LoopPath::rate) * path_gain(law, LoopPath::position));
-  constexpr int most_halvings = 10;
-  double share = 1.0;
-  for (int i = 0; i < most_halvings; ++i, share *= 0.5) {
-    if (radius(share * whole) < 1.0) {
-      back_calculation_ = share * whole;
-      back_calculation_share_ = share;
+  const Eigen::VectorXd whole = -b_.col(angle_error) / (path_gain(controller, LoopPath::rate) *
+                                                        path_gain(controller, LoopPath::position));
+  constexpr int max_halvings = 10;
+  double fraction = 1.0;
+  for (int i = 0; i < max_halvings; ++i, fraction *= 0.5) {
+    if (radius(fraction * whole) < 1.0) {
+      back_calculation_ = fraction * whole;
+      back_calculation_fraction_ = fraction;
       return;
     }
   }

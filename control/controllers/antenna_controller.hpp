@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 #include <boresight/plant/nonlinear/sampled_controller.hpp>
 
@@ -33,7 +33,7 @@ struct Feedforward {
 /// error tracking algorithm, J. Dyn. Syst. Meas. Control 109, 1987, for slow commands. Dry friction
 /// is not included.
 /// @throws InvalidInput as control::validate, and for a delay that is negative or not finite.
-Feedforward plant_feedforward(const plant::AntennaPlant& plant, const ControlLaw& law,
+Feedforward plant_feedforward(const plant::AntennaPlant& plant, const Controller& controller,
                               double delay);
 
 /// The steady motion at which a controller takes over.
@@ -51,11 +51,11 @@ struct AntennaControllerOptions {
   bool anti_windup = true;
 };
 
-/// A controller as it runs on the antenna's computer: sampled (sampled_law), with feedforward, and
-/// with its valve command limited. Inputs are tachometer, encoder and motor_torque (only if the
-/// controller feeds it back). They are followed by the references reference (rad), reference_rate
-/// (rad/s) and reference_acceleration (rad/s2, until the next sample), all of motor. The output is
-/// valve_command. The computation time is part of the simulation
+/// A controller as it runs on the antenna's computer: sampled (sampled_controller), with
+/// feedforward, and with its valve command limited. Inputs are tachometer, encoder and motor_torque
+/// (only if the controller feeds it back). They are followed by the references reference (rad),
+/// reference_rate (rad/s) and reference_acceleration (rad/s2, until the next sample), all of motor.
+/// The output is valve_command. The computation time is part of the simulation
 /// (SimulationPlan::computation_delay).
 ///
 /// Anti-windup by back calculation (K. J. Astrom, T. Hagglund, PID Controllers, 1995, ch. 3.5) acts
@@ -67,9 +67,9 @@ struct AntennaControllerOptions {
 /// wip = 0 instead of s^2 = 0. The injection is halved until the states at the limit are stable.
 class AntennaController final : public plant::SampledController {
  public:
-  /// @throws InvalidInput as sampled_law, for a command limit that is not above 0, and feedforward
-  /// that is not finite.
-  AntennaController(const ControlLaw& law, double sample_time,
+  /// @throws InvalidInput as sampled_controller, for a command limit that is not above 0, and
+  /// feedforward that is not finite.
+  AntennaController(const Controller& controller, double sample_time,
                     const AntennaControllerOptions& options = {});
 
   double sample_time() const override { return sample_time_; }
@@ -87,7 +87,7 @@ class AntennaController final : public plant::SampledController {
   double start_from(const SteadyMotion& motion);
 
   /// The fraction of back calculation in use: 1, 1/2, ...; 0 without anti-windup or integrators.
-  double back_calculation_share() const { return back_calculation_share_; }
+  double back_calculation_fraction() const { return back_calculation_fraction_; }
 
  private:
   double sample_time_;
@@ -98,7 +98,7 @@ class AntennaController final : public plant::SampledController {
   Eigen::MatrixXd a_, b_;
   Eigen::RowVectorXd c_, d_;
   Eigen::VectorXd back_calculation_;
-  double back_calculation_share_ = 0.0;
+  double back_calculation_fraction_ = 0.0;
   Eigen::VectorXd initial_, state_, next_;
 };
 

@@ -69,7 +69,7 @@ const CommandSample& CommandPreprocessor::advance(double angle, double rate) {
   return now_ = next;
 }
 
-double least_move_time(const CommandLimits& limits, double distance) {
+double min_move_time(const CommandLimits& limits, double distance) {
   require_positive("rate limit", limits.rate);
   require_positive("acceleration limit", limits.acceleration);
   const double way = std::abs(distance);

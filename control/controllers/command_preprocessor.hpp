@@ -53,6 +53,6 @@ class CommandPreprocessor {
 
 /// The least time (s) of a motion within the limits over `distance` (rad) from rest to rest: 2
 /// sqrt(d/A) if the rate limit is not reached, otherwise d/V + V/A.
-double least_move_time(const CommandLimits& limits, double distance);
+double min_move_time(const CommandLimits& limits, double distance);
 
 }  // namespace boresight::control

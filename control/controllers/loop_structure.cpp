@@ -106,8 +106,8 @@ void check_gains(const std::string& name, const std::vector<LoopBlock>& blocks,
                                to_string(candidate.kind), candidate.gains.size()));
     }
   }
-  if (gains.size() > most_gains) {
-    refuse(name, fmt::format("expected at most {} gains, found {}", most_gains, gains.size()));
+  if (gains.size() > max_gains) {
+    refuse(name, fmt::format("expected at most {} gains, found {}", max_gains, gains.size()));
   }
   std::set<std::string> symbols;
   for (const GainDescription& gain : gains) {

@@ -48,7 +48,7 @@ struct LoopBlock {
   std::vector<GainDescription> gains;
 };
 
-inline constexpr std::size_t most_gains = 16;
+inline constexpr std::size_t max_gains = 16;
 
 /// The load of a drive, as far as it determines the size of the loop gains.
 struct DrivenLoad {
@@ -64,7 +64,7 @@ class LoopStructure {
   /// PI with lag.
   LoopStructure();
   /// @throws InvalidInput for a rate or position path without a gain block, a block with a number
-  /// of gains other than its kind has, more than most_gains in all, bounds that are not 0 < lower <
+  /// of gains other than its kind has, more than max_gains in all, bounds that are not 0 < lower <
   /// upper, a duplicate symbol, more leads than lags in a path, an integral in the pressure or
   /// compliance path, or a pressure path without a washout (it would oppose the static load).
   LoopStructure(std::string name, std::vector<LoopBlock> blocks);

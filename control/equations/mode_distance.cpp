@@ -101,8 +101,8 @@ ModeDistance::Mode ModeDistance::test(Complex s) {
   VectorXcd w = VectorXcd::Constant(n, 1.0 / std::sqrt(static_cast<double>(n)));
   VectorXcd image(n);
   double distance = std::numeric_limits<double>::infinity();
-  constexpr int most_steps = 8;
-  for (int step = 0; step < most_steps; ++step) {
+  constexpr int max_steps = 8;
+  for (int step = 0; step < max_steps; ++step) {
     substitute(triangle_, w);
     w /= w.stableNorm();
     substitute_adjoint(triangle_, w);

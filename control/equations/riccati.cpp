@@ -152,20 +152,21 @@ double cayley_parameter(const RiccatiMatrices& scaled, const Eigen::VectorXcd& e
   const double largest = eigenvalues.cwiseAbs().maxCoeff();
   const double fastest = std::max(largest, demanded);
   if (fastest == 0.0) return 1.0;
-  constexpr double least_damping_ratio = 1e-3;
+  constexpr double min_damping_ratio = 1e-3;
   // Integrators and what else is slower still: the closed loop will have moved it.
   const double slow = 1e-6 * (largest > 0.0 ? largest : fastest);
   const auto convergence = [&](double c) {
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (const Complex eigenvalue : eigenvalues) {
       const double magnitude = std::abs(eigenvalue);
       if (magnitude < slow) continue;
-      const double damping = std::max(std::abs(eigenvalue.real()), least_damping_ratio * magnitude);
+      const double damping = std::max(std::abs(eigenvalue.real()), min_damping_ratio * magnitude);
       const double sum = c + damping;
-      least = std::min(least, c * damping / (sum * sum + eigenvalue.imag() * eigenvalue.imag()));
+      minimum =
+          std::min(minimum, c * damping / (sum * sum + eigenvalue.imag() * eigenvalue.imag()));
     }
-    if (demanded == 0.0) return least;
-    return std::min(least, c * demanded / ((c + demanded) * (c + demanded)));
+    if (demanded == 0.0) return minimum;
+    return std::min(minimum, c * demanded / ((c + demanded) * (c + demanded)));
   };
   double best = fastest;
   double best_convergence = convergence(best);

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr double least_reciprocal_condition = 1e-14;
+constexpr double min_reciprocal_condition = 1e-14;
 
 void symmetrise(MatrixXd& matrix) {
   matrix = 0.5 * (matrix + matrix.transpose()).eval();
@@ -27,9 +27,9 @@ Eigen::VectorXd riccati_scale(const RiccatiMatrices& matrices) {
   MatrixXd q = matrices.q;
   a.diagonal().setZero();
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(n);
-  constexpr int most_passes = 60;
+  constexpr int max_passes = 60;
   bool changed = true;
-  for (int pass = 0; changed && pass < most_passes; ++pass) {
+  for (int pass = 0; changed && pass < max_passes; ++pass) {
     changed = false;
     for (Index i = 0; i < n; ++i) {
       const double row = a.row(i).squaredNorm() + g.col(i).squaredNorm();
@@ -55,7 +55,7 @@ Eigen::VectorXd riccati_scale(const RiccatiMatrices& matrices) {
 std::optional<DoublingResult> solve_by_doubling(RiccatiMatrices sampled) {
   auto& [a, g, h] = sampled;
   const Index n = a.rows();
-  constexpr int most_doublings = 60;
+  constexpr int max_doublings = 60;
   // With the increment of H at 1e-9 of it the next would be at its square.
   constexpr double converged = 1e-9;
   MatrixXd inverse_a(n, n);
@@ -63,7 +63,7 @@ std::optional<DoublingResult> solve_by_doubling(RiccatiMatrices sampled) {
   MatrixXd product(n, n);
   MatrixXd increment(n, n);
   Eigen::PartialPivLU<MatrixXd> lu(n);
-  for (int k = 1; k <= most_doublings; ++k) {
+  for (int k = 1; k <= max_doublings; ++k) {
     product.noalias() = g * h;
     product.diagonal().array() += 1.0;
     lu.compute(product);
@@ -92,14 +92,14 @@ std::optional<RiccatiMatrices> cayley_transform(const RiccatiMatrices& continuou
   MatrixXd shifted = a;
   shifted.diagonal().array() -= c;
   const Eigen::PartialPivLU<MatrixXd> lu(shifted);
-  if (!(lu.rcond() > least_reciprocal_condition)) return std::nullopt;
+  if (!(lu.rcond() > min_reciprocal_condition)) return std::nullopt;
   const MatrixXd inverse = lu.inverse();
   // W = (A - c)' + Q (A - c)^-1 G
   const MatrixXd inverse_g = inverse * g;
   MatrixXd w = shifted.transpose();
   w.noalias() += q * inverse_g;
   const Eigen::PartialPivLU<MatrixXd> w_lu(w);
-  if (!(w_lu.rcond() > least_reciprocal_condition)) return std::nullopt;
+  if (!(w_lu.rcond() > min_reciprocal_condition)) return std::nullopt;
   const MatrixXd v = w_lu.inverse();
   RiccatiMatrices result;
   result.a = 2.0 * c * v.transpose();

@@ -97,10 +97,10 @@ class ClosedLoopEquation {
 RiccatiRefinement refine_riccati(const RiccatiMatrices& matrices, const MatrixXd& input, MatrixXd x,
                                  TimeDomain domain, bool estimate_condition) {
   RiccatiRefinement result;
-  constexpr int most_steps = 20;
+  constexpr int max_steps = 20;
   double previous = std::numeric_limits<double>::infinity();
   Linearisation at = linearise(matrices, input, x, domain);
-  for (int step = 1; step <= most_steps; ++step) {
+  for (int step = 1; step <= max_steps; ++step) {
     ClosedLoopEquation equation(at.closed_loop, domain);
     result.margin = equation.margin();
     result.eigenvalues = equation.eigenvalues();
@@ -113,7 +113,7 @@ RiccatiRefinement refine_riccati(const RiccatiMatrices& matrices, const MatrixXd
     at = linearise(matrices, input, x, domain);
     const double norm = x.norm();
     // Far from the solution a step may gain less than a half; near it, that is rounding.
-    if (size > 1e-12 * norm && (size < 0.5 * previous || size > 1e-4 * norm) && step < most_steps) {
+    if (size > 1e-12 * norm && (size < 0.5 * previous || size > 1e-4 * norm) && step < max_steps) {
       previous = size;
       continue;
     }

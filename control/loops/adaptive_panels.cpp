@@ -12,7 +12,7 @@ std::uint32_t AdaptivePanels::add(double from, double to) {
 }
 
 bool AdaptivePanels::drop_halves_if_too_many() {
-  if (panels_.size() <= most) return false;
+  if (panels_.size() <= maximum) return false;
   panels_.resize(first_.size());
   for (FrequencyPanel& panel : panels_) panel.first_half = 0;
   return true;

@@ -27,8 +27,8 @@ class AdaptivePanels {
   /// would resolve.
   static constexpr double narrowest = 1e-7;
   /// Largest number of panels kept from one function to the next, and for one function.
-  static constexpr std::size_t most = 4000;
-  static constexpr std::size_t most_leaves = 4000;
+  static constexpr std::size_t maximum = 4000;
+  static constexpr std::size_t max_leaves = 4000;
 
   bool empty() const { return panels_.empty(); }
   std::size_t size() const { return panels_.size(); }
@@ -59,7 +59,7 @@ class AdaptivePanels {
       waiting[0] = start;
       while (count > 0) {
         const std::uint32_t i = waiting[--count];
-        if (count + 2 > waiting.size() || leaves.size() > most_leaves || close_enough(i)) {
+        if (count + 2 > waiting.size() || leaves.size() > max_leaves || close_enough(i)) {
           leaves.push_back(i);
           continue;
         }

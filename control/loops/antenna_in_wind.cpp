@@ -35,8 +35,8 @@ SampledPointing sampled_pointing(const SampledLoop& loop, const SensorNoise& noi
   result.wind_rms = sampled_loop_rms(loop, wind, {"beam"}).over_time[0];
   const auto from_noise = sampled_loop_rms(loop, sensors, {"beam", "held_command"});
   result.noise_rms = from_noise.over_time[0];
-  result.valve_effort = from_noise.over_time[1];
-  result.beam_rms = std::hypot(result.wind_rms, result.noise_rms);
+  result.control_effort = from_noise.over_time[1];
+  result.boresight_rms = std::hypot(result.wind_rms, result.noise_rms);
   return result;
 }
 

@@ -63,44 +63,47 @@ plant::StateSpace without_free_angle(const plant::AntennaPlant& antenna) {
   return rate;
 }
 
-plant::StateSpace rate_loop_alone(const plant::AntennaPlant& antenna, const ControlLaw& law,
+plant::StateSpace rate_loop_alone(const plant::AntennaPlant& antenna, const Controller& controller,
                                   double delay) {
-  return plant::connect({without_free_angle(antenna), rate_loop_law(law),
+  return plant::connect({without_free_angle(antenna), rate_loop_controller(controller),
                          delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
                         {"wind_torque"}, {"tachometer"});
 }
 
-bool feeds_torque_back(const ControlLaw& law) {
-  return law.structure.has(LoopPath::pressure) || law.structure.has(LoopPath::compliance);
+bool feeds_torque_back(const Controller& controller) {
+  return controller.structure.has(LoopPath::pressure) ||
+         controller.structure.has(LoopPath::compliance);
 }
 
 }  // namespace
 
-plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const ControlLaw& law,
+plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const Controller& controller,
                               double delay) {
-  auto controller = renamed(renamed(to_state_space(law), "tachometer", "measured_rate"), "encoder",
-                            "measured_angle");
+  auto state_space = renamed(renamed(to_state_space(controller), "tachometer", "measured_rate"),
+                             "encoder", "measured_angle");
   std::vector<plant::StateSpace> parts{
       plant::to_state_space(antenna), adder("tachometer", "tachometer_noise", "measured_rate"),
       adder("encoder", "encoder_noise", "measured_angle"),
       delay_approximant(delay, delay_order, "valve_demand", "valve_command")};
   std::vector<std::string> inputs{"wind_torque", "encoder_noise", "tachometer_noise",
                                   "rate_disturbance"};
-  if (feeds_torque_back(law)) {
-    controller = renamed(controller, "motor_torque", "measured_torque");
+  if (feeds_torque_back(controller)) {
+    state_space = renamed(state_space, "motor_torque", "measured_torque");
     parts.push_back(adder("motor_torque", "torque_noise", "measured_torque"));
     inputs.emplace_back("torque_noise");
   }
-  parts.push_back(std::move(controller));
+  parts.push_back(std::move(state_space));
   return plant::connect(parts, inputs,
                         {"beam", "encoder", "tachometer", "motor_torque", "valve_demand"});
 }
 
-StabilityVerdict stability(const plant::AntennaPlant& antenna, const ControlLaw& law, double delay,
-                           const Eigen::ArrayXd& frequency) {
+StabilityVerdict stability(const plant::AntennaPlant& antenna, const Controller& controller,
+                           double delay, const Eigen::ArrayXd& frequency) {
   StabilityVerdict verdict;
-  verdict.rate_loop_abscissa = numerics::spectral_abscissa(rate_loop_alone(antenna, law, delay).a);
-  verdict.closed_loop_abscissa = numerics::spectral_abscissa(closed_loop(antenna, law, delay).a);
+  verdict.rate_loop_abscissa =
+      numerics::spectral_abscissa(rate_loop_alone(antenna, controller, delay).a);
+  verdict.closed_loop_abscissa =
+      numerics::spectral_abscissa(closed_loop(antenna, controller, delay).a);
   const auto response = plant::plant_response(antenna, frequency);
   const auto approximant = delay_approximant(delay, delay_order, "in", "out");
   for (Eigen::Index i = 0; i < frequency.size(); ++i) {
@@ -112,7 +115,7 @@ StabilityVerdict stability(const plant::AntennaPlant& antenna, const ControlLaw&
         1.0 - plant::frequency_response(approximant, w)(0, 0) / exact;
     for (const auto loop_break : {LoopBreak::rate_loop_alone, LoopBreak::valve_command}) {
       const std::complex<double> loop =
-          loop_gain(plant::point(response, i), w, law, delay, loop_break);
+          loop_gain(plant::point(response, i), w, controller, delay, loop_break);
       verdict.dead_time_residue =
           std::max(verdict.dead_time_residue, std::abs(change * loop / (1.0 + loop)));
     }
@@ -120,9 +123,9 @@ StabilityVerdict stability(const plant::AntennaPlant& antenna, const ControlLaw&
   return verdict;
 }
 
-LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const ControlLaw& law, double delay,
-                         const plant::ShapingFilter& wind, const SensorNoise& noise) {
-  const auto loop = closed_loop(antenna, law, delay);
+LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const Controller& controller,
+                         double delay, const plant::ShapingFilter& wind, const SensorNoise& noise) {
+  const auto loop = closed_loop(antenna, controller, delay);
   LyapunovRms rms;
   {
     std::vector<std::string> inputs = loop.inputs;
@@ -140,7 +143,7 @@ LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const ControlLaw& l
     Eigen::MatrixXd q = Eigen::MatrixXd::Zero(loop.a.rows(), loop.a.rows());
     std::vector<std::pair<const char*, double>> sources{{"encoder_noise", noise.encoder_rms},
                                                         {"tachometer_noise", noise.tachometer_rms}};
-    if (feeds_torque_back(law)) sources.emplace_back("torque_noise", noise.torque_rms);
+    if (feeds_torque_back(controller)) sources.emplace_back("torque_noise", noise.torque_rms);
     for (const auto& [name, value] : sources) {
       const Eigen::VectorXd b = loop.b.col(plant::input_index(loop, name));
       q += value * value / (2.0 * noise.bandwidth) * b * b.transpose();

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 #include <boresight/plant/wind/wind_filter.hpp>
@@ -13,9 +13,9 @@ inline constexpr int delay_order = 8;
 
 /// Plant, controller and rational dead time as one state space. Inputs: wind_torque (N m),
 /// encoder_noise (rad), tachometer_noise (rad/s), rate_disturbance (rad/s) and, if the controller
-/// feeds torque back, torque_noise (N m). Outputs: boresight (`beam`) and encoder (rad), tachometer
-/// (rad/s), motor_torque (N m), valve_demand (rad/s).
-plant::StateSpace closed_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+/// feeds torque back, torque_noise (N m). Outputs: boresight (`boresight`) and encoder (rad),
+/// tachometer (rad/s), motor_torque (N m), valve_demand (rad/s).
+plant::StateSpace closed_loop(const plant::AntennaPlant& plant, const Controller& controller,
                               double delay);
 
 /// Stability by eigenvalues, position loop open and closed.
@@ -35,8 +35,8 @@ struct StabilityVerdict {
 
 /// With the position loop open, the free angle and the position integrator are removed, because
 /// nothing restores them. `frequency`: grid (rad/s) for the residue.
-StabilityVerdict stability(const plant::AntennaPlant& plant, const ControlLaw& law, double delay,
-                           const Eigen::ArrayXd& frequency);
+StabilityVerdict stability(const plant::AntennaPlant& plant, const Controller& controller,
+                           double delay, const Eigen::ArrayXd& frequency);
 
 /// Boresight rms (rad of motor) by Lyapunov equations on the state space, independent of the
 /// frequency response. Wind enters through its shaping filter; sensor noise is white without band
@@ -49,7 +49,7 @@ struct LyapunovRms {
 };
 
 /// @throws NumericalFailure if the closed loop is unstable.
-LyapunovRms lyapunov_rms(const plant::AntennaPlant& plant, const ControlLaw& law, double delay,
-                         const plant::ShapingFilter& wind, const SensorNoise& noise);
+LyapunovRms lyapunov_rms(const plant::AntennaPlant& plant, const Controller& controller,
+                         double delay, const plant::ShapingFilter& wind, const SensorNoise& noise);
 
 }  // namespace boresight::control

@@ -21,24 +21,24 @@ void rename_input(plant::StateSpace& system, const std::string& from, const std:
 
 }  // namespace
 
-plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const Controller& controller,
                                     double delay) {
-  plant::StateSpace controller = rate_loop_law(law);
-  rename_input(controller, "tachometer", "rate_less_command");
+  plant::StateSpace state_space = rate_loop_controller(controller);
+  rename_input(state_space, "tachometer", "rate_less_command");
   return plant::connect(
       {plant::to_state_space(plant),
-       weighted_sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), controller,
+       weighted_sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), state_space,
        delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
       {"command", "wind_torque"}, {"tachometer", "motor_torque", "valve_demand"});
 }
 
-plant::StateSpace position_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
-                                        double delay) {
-  plant::StateSpace controller = to_state_space(law);
-  rename_input(controller, "encoder", "angle_less_command");
+plant::StateSpace position_command_loop(const plant::AntennaPlant& plant,
+                                        const Controller& controller, double delay) {
+  plant::StateSpace state_space = to_state_space(controller);
+  rename_input(state_space, "encoder", "angle_less_command");
   return plant::connect(
       {plant::to_state_space(plant),
-       weighted_sum(1.0, "encoder", -1.0, "command", "angle_less_command"), controller,
+       weighted_sum(1.0, "encoder", -1.0, "command", "angle_less_command"), state_space,
        weighted_sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
        delay_approximant(delay, delay_order, "whole_demand", "valve_command")},
       {"command", "rate_disturbance", "valve_feedforward", "wind_torque"},

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
@@ -10,7 +10,7 @@ namespace boresight::control {
 /// wind_torque (N m). Outputs: tachometer (rad/s), motor_torque (N m) and valve_demand (rad/s), all
 /// at the motor shaft. Dead time as in closed_loop.
 /// @throws InvalidInput as to_state_space of plant and controller.
-plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const Controller& controller,
                                     double delay);
 
 /// Both loops with position command and feedforward signals as inputs. Inputs: command (rad),
@@ -18,7 +18,7 @@ plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const Cont
 /// valve demand) and wind_torque (N m). Outputs: encoder (rad), motor_torque (N m) and whole_demand
 /// (rad/s, feedforward included), all at the motor shaft. Dead time as in closed_loop.
 /// @throws InvalidInput as to_state_space of plant and controller.
-plant::StateSpace position_command_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
-                                        double delay);
+plant::StateSpace position_command_loop(const plant::AntennaPlant& plant,
+                                        const Controller& controller, double delay);
 
 }  // namespace boresight::control

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/loops/loop_encirclements.hpp>
 #include <boresight/control/loops/loop_evaluator_state.hpp>
 #include <boresight/control/loops/loop_point.hpp>
-#include <boresight/control/loops/loop_winding.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -40,10 +40,10 @@ Eigen::ArrayXd integration_weights(const Eigen::ArrayXd& frequency, const Freque
 
 }  // namespace
 
-LoopPoint loop_point(const plant::ResponsePoint& response, const ControlLaw& law, double frequency,
-                     double delay) {
+LoopPoint loop_point(const plant::ResponsePoint& response, const Controller& controller,
+                     double frequency, double delay) {
   LoopPoint point;
-  point.compensator = compensator_response(law, frequency);
+  point.compensator = compensator_response(controller, frequency);
   const auto& c = point.compensator;
   point.dead_time = std::polar(1.0, -frequency * delay);
   point.angle = response.encoder_command - c.compliance * response.torque_command;
@@ -65,9 +65,9 @@ std::string_view to_string(LoopBreak loop_break) {
   throw InvalidInput("to_string: not a loop break");
 }
 
-Complex loop_gain(const plant::ResponsePoint& response, double frequency, const ControlLaw& law,
-                  double delay, LoopBreak loop_break) {
-  const LoopPoint point = loop_point(response, law, frequency, delay);
+Complex loop_gain(const plant::ResponsePoint& response, double frequency,
+                  const Controller& controller, double delay, LoopBreak loop_break) {
+  const LoopPoint point = loop_point(response, controller, frequency, delay);
   const auto& c = point.compensator;
   const Complex rate = point.dead_time * (c.rate * response.tachometer_command +
                                           c.pressure * response.torque_command);
@@ -122,16 +122,16 @@ void LoopEvaluator::look_at_gusts(bool look) {
   state_->look_at_gusts(look);
 }
 
-LoopEvaluation LoopEvaluator::evaluate(const ControlLaw& law, bool with_gradients) {
-  return state_->evaluate(law, with_gradients);
+LoopEvaluation LoopEvaluator::evaluate(const Controller& controller, bool with_gradients) {
+  return state_->evaluate(controller, with_gradients);
 }
 
 std::size_t LoopEvaluator::frequencies_used() const {
   return state_->frequencies_used();
 }
 
-Eigen::ArrayXd LoopEvaluator::wind_transmission(const ControlLaw& law) const {
-  return state_->wind_transmission(law);
+Eigen::ArrayXd LoopEvaluator::wind_transmission(const Controller& controller) const {
+  return state_->wind_transmission(controller);
 }
 
 const plant::PlantResponse& LoopEvaluator::response() const {
@@ -188,11 +188,11 @@ void LoopEvaluator::State::GridPack::set(std::size_t lane, double w,
   put(tachometer_command, response.tachometer_command * dead_time);
   put(torque_command, response.torque_command * dead_time);
   put(encoder_command, response.encoder_command * dead_time);
-  put(beam_command, response.beam_command * dead_time);
+  put(boresight_command, response.boresight_command * dead_time);
   put(tachometer_wind, response.tachometer_wind);
   put(torque_wind, response.torque_wind);
   put(encoder_wind, response.encoder_wind);
-  put(beam_wind, response.beam_wind);
+  put(boresight_wind, response.boresight_wind);
 }
 
 void LoopEvaluator::State::GridPack::set_weights(std::size_t lane, double wind, double noise) {
@@ -202,31 +202,32 @@ void LoopEvaluator::State::GridPack::set_weights(std::size_t lane, double wind, 
   weighted = weighted || noisy || wind > 0.0;
 }
 
-void LoopEvaluator::State::count_unstable(const ControlLaw& law, LoopEvaluation& result) const {
+void LoopEvaluator::State::count_unstable(const Controller& controller,
+                                          LoopEvaluation& result) const {
   int rate_integrators = 0, position_integrators = 0;
-  for (const LoopBlock& block : law.structure.blocks()) {
+  for (const LoopBlock& block : controller.structure.blocks()) {
     if (block.kind != BlockKind::integral) continue;
     ++(block.path == LoopPath::rate ? rate_integrators : position_integrators);
   }
   // The position loop has the antenna's own integration besides.
-  Winding rate_winding(rate_integrators);
-  Winding both_winding(rate_integrators + position_integrators + 1);
+  EncirclementCount rate_encirclements(rate_integrators);
+  EncirclementCount both_encirclements(rate_integrators + position_integrators + 1);
   std::size_t left = points();
   for (const std::uint32_t i : leaves_) {
     const LoopValues& values = values_[i];
     const std::size_t lanes = std::min(numerics::pack_size, left);
-    rate_winding.add(values.rate_return, lanes);
-    both_winding.add(values.both_return, lanes);
+    rate_encirclements.add(values.rate_return, lanes);
+    both_encirclements.add(values.both_return, lanes);
     left -= lanes;
   }
-  result.unstable_rate_loop = rate_winding.unstable();
-  result.unstable_closed_loop = both_winding.unstable();
+  result.unstable_rate_loop = rate_encirclements.unstable();
+  result.unstable_closed_loop = both_encirclements.unstable();
 }
 
-LoopEvaluation LoopEvaluator::State::evaluate(const ControlLaw& law, bool with_gradients) {
-  validate(law);
+LoopEvaluation LoopEvaluator::State::evaluate(const Controller& controller, bool with_gradients) {
+  validate(controller);
   LoopEvaluation result;
-  const Sweep sweep = prepare(law);
+  const Sweep sweep = prepare(controller);
   if (panels_.empty()) {
     sweep_values(sweep, leaves_.data(), leaves_.size());
   } else {
@@ -249,27 +250,27 @@ LoopEvaluation LoopEvaluator::State::evaluate(const ControlLaw& law, bool with_g
   result.wind_demand_variance = numerics::sum(wind_demand);
   result.wind_torque_variance = numerics::sum(wind_torque);
   if (with_gradients) sweep_gradients(sweep, result);
-  count_unstable(law, result);
+  count_unstable(controller, result);
   for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
-    if (breaks_[b]) find_peaks(law, loop_breaks[b], result.peaks[b]);
+    if (breaks_[b]) find_peaks(controller, loop_breaks[b], result.peaks[b]);
   }
   return result;
 }
 
-Eigen::ArrayXd LoopEvaluator::State::wind_transmission(const ControlLaw& law) const {
-  validate(law);
+Eigen::ArrayXd LoopEvaluator::State::wind_transmission(const Controller& controller) const {
+  validate(controller);
   const plant::PlantResponse& plant = response();
   Eigen::ArrayXd square(plant.frequency.size());
   for (Eigen::Index i = 0; i < square.size(); ++i) {
     const plant::ResponsePoint here = plant::point(plant, i);
-    const LoopPoint point = loop_point(here, law, plant.frequency[i], delay_);
+    const LoopPoint point = loop_point(here, controller, plant.frequency[i], delay_);
     const auto& c = point.compensator;
     const Complex measured =
         c.rate * (here.tachometer_wind +
                   c.position * (here.encoder_wind - c.compliance * here.torque_wind)) +
         c.pressure * here.torque_wind;
-    square[i] = std::norm(here.beam_wind -
-                          here.beam_command * point.dead_time * measured / point.both_return);
+    square[i] = std::norm(here.boresight_wind -
+                          here.boresight_command * point.dead_time * measured / point.both_return);
   }
   return square;
 }

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
 
@@ -42,20 +42,20 @@ std::string_view to_string(LoopBreak loop_break);
 /// The open-loop gain at a break at one frequency (rad/s), with exact dead time. Negative feedback
 /// is implied: S = 1/(1 + L).
 std::complex<double> loop_gain(const plant::ResponsePoint& response, double frequency,
-                               const ControlLaw& law, double delay, LoopBreak loop_break);
+                               const Controller& controller, double delay, LoopBreak loop_break);
 
 /// A local maximum of a sensitivity.
 struct SensitivityPeak {
   double frequency = 0.0;  // rad/s
   double magnitude = 0.0;
   /// d ln(magnitude) / d ln(gain), in the order of the gain vector.
-  std::array<double, most_gains> log_gradient{};
+  std::array<double, max_gains> log_gradient{};
 };
 
 /// The highest local maxima at a break, highest first.
 class PeakList {
  public:
-  static constexpr std::size_t most = 3;
+  static constexpr std::size_t maximum = 3;
   void push_back(const SensitivityPeak& peak) { peaks_.at(size_++) = peak; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
@@ -67,7 +67,7 @@ class PeakList {
   const SensitivityPeak* end() const { return peaks_.data() + size_; }
 
  private:
-  std::array<SensitivityPeak, most> peaks_;
+  std::array<SensitivityPeak, maximum> peaks_;
   std::size_t size_ = 0;
 };
 
@@ -82,11 +82,11 @@ struct LoopEvaluation {
   /// to saturation in gusts. 0 unless look_at_gusts() requested them.
   double wind_demand_variance = 0.0;
   double wind_torque_variance = 0.0;
-  std::array<double, most_gains> wind_log_gradient{};
-  std::array<double, most_gains> noise_log_gradient{};
-  std::array<double, most_gains> effort_log_gradient{};
-  std::array<double, most_gains> wind_demand_log_gradient{};
-  std::array<double, most_gains> wind_torque_log_gradient{};
+  std::array<double, max_gains> wind_log_gradient{};
+  std::array<double, max_gains> noise_log_gradient{};
+  std::array<double, max_gains> effort_log_gradient{};
+  std::array<double, max_gains> wind_demand_log_gradient{};
+  std::array<double, max_gains> wind_torque_log_gradient{};
   std::array<PeakList, 3> peaks;  // of |S|, by break
   /// Closed-loop poles in the right half plane by the encirclements of 1 + L along the grid,
   /// position loop open and closed. This is a fast filter; the stability verdict is that of the
@@ -95,7 +95,7 @@ struct LoopEvaluation {
   int unstable_closed_loop = 0;
 
   bool stable() const { return unstable_rate_loop == 0 && unstable_closed_loop == 0; }
-  double beam_variance() const { return wind_variance + noise_variance; }
+  double boresight_variance() const { return wind_variance + noise_variance; }
   double highest_peak(LoopBreak loop_break) const;
 };
 
@@ -181,12 +181,12 @@ class LoopEvaluator {
   void look_at_gusts(bool look);
 
   /// @throws InvalidInput as control::validate.
-  LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
+  LoopEvaluation evaluate(const Controller& controller, bool with_gradients);
   /// Number of frequencies of the last evaluation.
   std::size_t frequencies_used() const;
 
   /// |boresight / wind torque|^2 of the closed loop at each frequency of the grid, rad^2/(N m)^2.
-  Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
+  Eigen::ArrayXd wind_transmission(const Controller& controller) const;
 
   /// Response of the plant on the grid, or on the panels that every evaluation starts from.
   const plant::PlantResponse& response() const;

@@ -22,9 +22,9 @@ class LoopEvaluator::State {
 
   void look_at(std::array<bool, 3> breaks) { breaks_ = breaks; }
   void look_at_gusts(bool look) { gusts_ = look; }
-  LoopEvaluation evaluate(const ControlLaw& law, bool with_gradients);
+  LoopEvaluation evaluate(const Controller& controller, bool with_gradients);
   std::size_t frequencies_used() const { return leaves_.size() * numerics::pack_size; }
-  Eigen::ArrayXd wind_transmission(const ControlLaw& law) const;
+  Eigen::ArrayXd wind_transmission(const Controller& controller) const;
   const plant::PlantResponse& response() const { return channels_.response; }
   double delay() const { return delay_; }
   const Eigen::ArrayXd& integration_weight() const { return weight_; }
@@ -33,8 +33,8 @@ class LoopEvaluator::State {
   // Eight frequencies: responses to the command, including the dead time.
   struct GridPack {
     numerics::RealPack frequency, period, wind_weight, noise_weight;  // period: 1/frequency
-    numerics::ComplexPack tachometer_command, torque_command, encoder_command, beam_command;
-    numerics::ComplexPack tachometer_wind, torque_wind, encoder_wind, beam_wind;
+    numerics::ComplexPack tachometer_command, torque_command, encoder_command, boresight_command;
+    numerics::ComplexPack tachometer_wind, torque_wind, encoder_wind, boresight_wind;
     bool weighted = false, noisy = false;  // whether any weight is above 0
 
     void set(std::size_t lane, double frequency, const plant::ResponsePoint& response,
@@ -47,7 +47,7 @@ class LoopEvaluator::State {
     numerics::ComplexPack rate_return, both_return;  // 1 + L, position loop open, closed
     std::array<numerics::RealPack, 3> sensitivity_square;
     numerics::RealPack wind, noise, effort, wind_demand, wind_torque;
-    TailCoefficients beam_tail, effort_tail, demand_tail, torque_tail;
+    TailCoefficients boresight_tail, effort_tail, demand_tail, torque_tail;
     // Below 0 where 1 + L turns by more than a right angle to the next point.
     numerics::RealPack turn;
   };
@@ -57,10 +57,10 @@ class LoopEvaluator::State {
   };
   // Data of one controller for a sweep over the frequencies.
   struct Sweep {
-    const ControlLaw* law = nullptr;
-    std::array<PlacedBlock, most_gains> blocks{};  // path by path
+    const Controller* controller = nullptr;
+    std::array<PlacedBlock, max_gains> blocks{};  // path by path
     std::array<std::size_t, 4> path_end{};
-    std::array<std::size_t, most_gains> path_of_gain{};
+    std::array<std::size_t, max_gains> path_of_gain{};
     std::array<bool, 4> present{};
     double tachometer_density = 0.0, encoder_density = 0.0, torque_density = 0.0;
     bool noisy = false;
@@ -89,18 +89,19 @@ class LoopEvaluator::State {
   void add_panel(double from, double to);
   void choose_leaves(const Sweep& sweep);
   bool close_enough(std::uint32_t i, const Limits& limits) const;
-  Sweep prepare(const ControlLaw& law) const;
+  Sweep prepare(const Controller& controller) const;
   void sweep_values(const Sweep& sweep, const std::uint32_t* packs, std::size_t count);
   void sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const;
-  void count_unstable(const ControlLaw& law, LoopEvaluation& result) const;
+  void count_unstable(const Controller& controller, LoopEvaluation& result) const;
 
   std::size_t points() const;
   double sensitivity_square(std::size_t loop_break, std::size_t i) const;
   PointOnAxis point_on_axis(LoopBreak loop_break, std::size_t i) const;
   Interpolation interpolate(LoopBreak loop_break, std::size_t near, double place) const;
-  SensitivityPeak peak_at(const ControlLaw& law, LoopBreak loop_break, double frequency) const;
-  SensitivityPeak polish(const ControlLaw& law, LoopBreak loop_break, std::size_t i) const;
-  void find_peaks(const ControlLaw& law, LoopBreak loop_break, PeakList& peaks) const;
+  SensitivityPeak peak_at(const Controller& controller, LoopBreak loop_break,
+                          double frequency) const;
+  SensitivityPeak polish(const Controller& controller, LoopBreak loop_break, std::size_t i) const;
+  void find_peaks(const Controller& controller, LoopBreak loop_break, PeakList& peaks) const;
 
   LoopChannels channels_;
   double delay_;

@@ -92,8 +92,8 @@ void LoopEvaluator::State::add_panel(double from, double to) {
     const double spectrum = within ? wind_spectrum_(hertz) : 0.0;
     pack.set_weights(lane, within ? weight * spectrum : 0.0,
                      within && hertz < noise_.bandwidth ? weight : 0.0);
-    if (!std::isfinite(spectrum) || !std::isfinite(std::norm(response.beam_command)) ||
-        !std::isfinite(std::norm(response.beam_wind))) {
+    if (!std::isfinite(spectrum) || !std::isfinite(std::norm(response.boresight_command)) ||
+        !std::isfinite(std::norm(response.boresight_wind))) {
       throw NumericalFailure(fmt::format(
           "LoopEvaluator: the plant's response or the wind's spectrum is not finite at {} Hz",
           hertz));
@@ -119,8 +119,8 @@ void LoopEvaluator::State::add_resolved(double from, double to, const LoopQuadra
       half_width < AdaptivePanels::narrowest ||
       (half_width <= 0.5 * quadrature.widest_panel && resolved(pack.tachometer_command) &&
        resolved(pack.torque_command) && resolved(pack.encoder_command) &&
-       resolved(pack.beam_command) && resolved(pack.tachometer_wind) &&
-       resolved(pack.torque_wind) && resolved(pack.encoder_wind) && resolved(pack.beam_wind));
+       resolved(pack.boresight_command) && resolved(pack.tachometer_wind) &&
+       resolved(pack.torque_wind) && resolved(pack.encoder_wind) && resolved(pack.boresight_wind));
   if (fine) {
     panels_.start_from_last();
     return;
@@ -147,7 +147,7 @@ void LoopEvaluator::State::make_panels(const LoopQuadrature& quadrature) {
 }
 
 struct LoopEvaluator::State::Limits {
-  double beam = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;  // squares of errors allowed
+  double boresight = 0.0, effort = 0.0, demand = 0.0, torque = 0.0;  // squares of errors allowed
 };
 
 bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) const {
@@ -160,7 +160,7 @@ bool LoopEvaluator::State::close_enough(std::uint32_t i, const Limits& limits) c
     // The narrower the panel, the further in it a gain moves a pole: the gradient's error against
     // the variance's grows.
     const double allowed = half_width;
-    if (PanelTail(values.beam_tail).error_square() > allowed * limits.beam ||
+    if (PanelTail(values.boresight_tail).error_square() > allowed * limits.boresight ||
         PanelTail(values.effort_tail).error_square() > allowed * limits.effort) {
       return false;
     }
@@ -179,10 +179,10 @@ void LoopEvaluator::State::choose_leaves(const Sweep& sweep) {
     values_.resize(first.size());
   }
   sweep_values(sweep, first.data(), first.size());
-  numerics::RealPack beam{}, effort{}, demand{}, torque{};
+  numerics::RealPack boresight{}, effort{}, demand{}, torque{};
   for (const std::uint32_t i : first) {
     const LoopValues& values = values_[i];
-    beam += values.wind + values.noise;
+    boresight += values.wind + values.noise;
     effort += values.effort;
     if (gusts_) {
       demand += values.wind_demand;
@@ -193,7 +193,7 @@ void LoopEvaluator::State::choose_leaves(const Sweep& sweep) {
     const double error = tolerance_ * numerics::sum(total);
     return error * error;
   };
-  const Limits limits{limit(beam), limit(effort), limit(demand), limit(torque)};
+  const Limits limits{limit(boresight), limit(effort), limit(demand), limit(torque)};
   panels_.choose(
       leaves_, [&](double from, double to) { add_panel(from, to); },
       [&](const std::uint32_t* packs, std::size_t count) { sweep_values(sweep, packs, count); },
@@ -217,11 +217,12 @@ void LoopEvaluator::State::use_first_panels() {
     const auto value = [&](const numerics::ComplexPack& channel) {
       return Complex{channel.re[lane], channel.im[lane]};
     };
-    plant::set_point(channels_.response, k,
-                     {value(pack.tachometer_command) * advance,
-                      value(pack.torque_command) * advance, value(pack.encoder_command) * advance,
-                      value(pack.beam_command) * advance, value(pack.tachometer_wind),
-                      value(pack.torque_wind), value(pack.encoder_wind), value(pack.beam_wind)});
+    plant::set_point(
+        channels_.response, k,
+        {value(pack.tachometer_command) * advance, value(pack.torque_command) * advance,
+         value(pack.encoder_command) * advance, value(pack.boresight_command) * advance,
+         value(pack.tachometer_wind), value(pack.torque_wind), value(pack.encoder_wind),
+         value(pack.boresight_wind)});
   }
 }
 

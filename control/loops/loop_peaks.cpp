@@ -77,9 +77,9 @@ Vertex vertex(const LogPoint& left, const LogPoint& middle, const LogPoint& righ
 // more than `enough`, or `value(place)` is as good as known.
 template <typename Value>
 LogPoint climb(LogPoint left, LogPoint middle, LogPoint right, Value value) {
-  constexpr int most_steps = 8;
+  constexpr int max_steps = 8;
   constexpr double enough = 1e-11;  // of ln|S|^2
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     const Vertex top = vertex(left, middle, right);
     if (top.place == middle.place || (top.rise < enough && step > 0)) break;
     const LogPoint found{top.place, value(top.place)};
@@ -162,16 +162,16 @@ LoopEvaluator::State::Interpolation LoopEvaluator::State::interpolate(LoopBreak 
   throw InvalidInput("loop evaluator: not a loop break");
 }
 
-SensitivityPeak LoopEvaluator::State::peak_at(const ControlLaw& law, LoopBreak loop_break,
+SensitivityPeak LoopEvaluator::State::peak_at(const Controller& controller, LoopBreak loop_break,
                                               double frequency) const {
   const plant::ResponsePoint response = channels_.at(frequency);
-  const LoopPoint point = loop_point(response, law, frequency, delay_);
+  const LoopPoint point = loop_point(response, controller, frequency, delay_);
   SensitivityPeak peak;
   peak.frequency = frequency;
   peak.magnitude = sensitivity(point, loop_break);
   const Complex rate_inverse = 1.0 / point.rate_return, both_inverse = 1.0 / point.both_return;
   std::size_t k = 0;
-  for (const LoopBlock& block : law.structure.blocks()) {
+  for (const LoopBlock& block : controller.structure.blocks()) {
     const ReturnDerivative change = return_derivative(point, response, block.path);
     const Complex of_rate = change.rate * rate_inverse;
     const Complex of_both = change.both * both_inverse;
@@ -188,7 +188,7 @@ SensitivityPeak LoopEvaluator::State::peak_at(const ControlLaw& law, LoopBreak l
 // Between the points of panels the returns are polynomials, and the plant is asked at the top only.
 // What it says there corrects the polynomial: its error is nearly the product of the distances from
 // the points times a constant.
-SensitivityPeak LoopEvaluator::State::polish(const ControlLaw& law, LoopBreak loop_break,
+SensitivityPeak LoopEvaluator::State::polish(const Controller& controller, LoopBreak loop_break,
                                              std::size_t i) const {
   const auto on_grid = [&](std::size_t k) {
     const PointOnAxis point = point_on_axis(loop_break, k);
@@ -197,16 +197,16 @@ SensitivityPeak LoopEvaluator::State::polish(const ControlLaw& law, LoopBreak lo
   const LogPoint left = on_grid(i - 1), middle = on_grid(i), right = on_grid(i + 1);
   if (!panels_.empty()) {
     constexpr double agreement = 3e-7;  // of ln|S|^2
-    constexpr int most_corrections = 3;
+    constexpr int max_corrections = 3;
     double factor = 0.0;
     std::size_t corrected_leaf = leaves_.size();
     const auto value = [&](double place) {
       const Interpolation found = interpolate(loop_break, i, place);
       return found.value + (found.leaf == corrected_leaf ? factor * found.product : 0.0);
     };
-    for (int round = 0; round < most_corrections; ++round) {
+    for (int round = 0; round < max_corrections; ++round) {
       const LogPoint top = climb(left, middle, right, value);
-      const SensitivityPeak peak = peak_at(law, loop_break, std::exp(top.place));
+      const SensitivityPeak peak = peak_at(controller, loop_break, std::exp(top.place));
       const double error = 2.0 * std::log(peak.magnitude) - top.value;
       if (std::abs(error) < agreement) {
         // That the polynomial is right here does not make this the top: it may end here, or slope
@@ -215,8 +215,8 @@ SensitivityPeak LoopEvaluator::State::polish(const ControlLaw& law, LoopBreak lo
         const auto exact = [&](double place) {
           const double w = std::exp(place);
           return LogPoint{
-              place,
-              2.0 * std::log(sensitivity(loop_point(channels_.at(w), law, w, delay_), loop_break))};
+              place, 2.0 * std::log(sensitivity(loop_point(channels_.at(w), controller, w, delay_),
+                                                loop_break))};
         };
         const double aside = 0.1 * std::min(middle.place - left.place, right.place - middle.place);
         const LogPoint here{top.place, 2.0 * std::log(peak.magnitude)};
@@ -226,7 +226,7 @@ SensitivityPeak LoopEvaluator::State::polish(const ControlLaw& law, LoopBreak lo
         // A parabola through points so close together has its top where the curve has.
         const LogPoint found =
             climb(before, here, after, [&](double place) { return exact(place).value; });
-        return peak_at(law, loop_break, std::exp(found.place));
+        return peak_at(controller, loop_break, std::exp(found.place));
       }
       const Interpolation there = interpolate(loop_break, i, top.place);
       if (there.product == 0.0) break;
@@ -235,25 +235,25 @@ SensitivityPeak LoopEvaluator::State::polish(const ControlLaw& law, LoopBreak lo
     }
   }
   const LogPoint top = climb(left, middle, right, [&](double place) {
-    return 2.0 * std::log(peak_at(law, loop_break, std::exp(place)).magnitude);
+    return 2.0 * std::log(peak_at(controller, loop_break, std::exp(place)).magnitude);
   });
-  return peak_at(law, loop_break, std::exp(top.place));
+  return peak_at(controller, loop_break, std::exp(top.place));
 }
 
-void LoopEvaluator::State::find_peaks(const ControlLaw& law, LoopBreak loop_break,
+void LoopEvaluator::State::find_peaks(const Controller& controller, LoopBreak loop_break,
                                       PeakList& peaks) const {
   // The highest few, in falling order.
   struct Maximum {
     std::size_t place = 0;
     double square = 0.0;
   };
-  std::array<Maximum, PeakList::most> maxima{};
+  std::array<Maximum, PeakList::maximum> maxima{};
   std::size_t count = 0;
   const auto consider = [&](const Maximum& found) {
     std::size_t place = count;
     while (place > 0 && maxima[place - 1].square < found.square) --place;
-    if (place >= PeakList::most) return;
-    count = std::min(count + 1, PeakList::most);
+    if (place >= PeakList::maximum) return;
+    count = std::min(count + 1, PeakList::maximum);
     for (std::size_t j = count - 1; j > place; --j) maxima[j] = maxima[j - 1];
     maxima[place] = found;
   };
@@ -274,7 +274,8 @@ void LoopEvaluator::State::find_peaks(const ControlLaw& law, LoopBreak loop_brea
       here = after;
     }
   }
-  for (std::size_t m = 0; m < count; ++m) peaks.push_back(polish(law, loop_break, maxima[m].place));
+  for (std::size_t m = 0; m < count; ++m)
+    peaks.push_back(polish(controller, loop_break, maxima[m].place));
   std::sort(peaks.begin(), peaks.end(), [](const SensitivityPeak& x, const SensitivityPeak& y) {
     return x.magnitude > y.magnitude;
   });

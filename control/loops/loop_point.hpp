@@ -15,7 +15,7 @@ struct LoopPoint {
   std::complex<double> both_return;  // 1 + L, both closed
 };
 
-LoopPoint loop_point(const plant::ResponsePoint& response, const ControlLaw& law, double frequency,
-                     double delay);
+LoopPoint loop_point(const plant::ResponsePoint& response, const Controller& controller,
+                     double frequency, double delay);
 
 }  // namespace boresight::control

@@ -76,7 +76,7 @@ template <bool with_gradients, std::size_t width>
 // The loop at as many frequencies as the registers are wide. With D1 and D2 the returns 1 + L of
 // the rate loop and of both loops, a = -b/D2 what a demand of one does to the beam, m what the law
 // makes of the wind, and y its answer to each sensor's noise:
-//   beam by wind  z = beam_wind + a m,   dz = a (dm - m dD2/D2)
+//   beam by wind  z = boresight_wind + a m,   dz = a (dm - m dD2/D2)
 //   likewise the demand by wind with a = -1/D2 and the motor torque with its own response for b
 //   noise         y = n/D2,              dy = (dn - y dD2)/D2
 template <std::size_t width>
@@ -98,19 +98,20 @@ struct LoopEvaluator::State::LoopLanes {
   // At the k-th part of eight frequencies.
   template <bool with_gradients>
   [[gnu::always_inline]] inline void fill(const Sweep& sweep, const GridPack& grid, std::size_t k,
-                                          bool gusts, Compensators& law, ComplexPart* by_gain) {
+                                          bool gusts, Compensators& controller,
+                                          ComplexPart* by_gain) {
     for (std::size_t path = 0, b = 0; path < 4; ++path) {
       ComplexPart compensator{sweep.present[path] ? 1.0 : 0.0, 0.0};
       for (; b < sweep.path_end[path]; ++b) {
         const PlacedBlock& block = sweep.blocks[b];
-        multiply<with_gradients>(block.kind, sweep.law->gains.data() + block.first_gain,
+        multiply<with_gradients>(block.kind, sweep.controller->gains.data() + block.first_gain,
                                  part<width>(grid.frequency, k), part<width>(grid.period, k),
                                  compensator,
                                  with_gradients ? by_gain + block.first_gain : nullptr);
       }
-      law[path] = compensator;
+      controller[path] = compensator;
     }
-    const auto [r, q, p, c] = law;
+    const auto [r, q, p, c] = controller;
     const bool pressure = sweep.present[1], compliance = sweep.present[3];
     rate_part = r * part<width>(grid.tachometer_command, k);
     rp = r * p;
@@ -133,11 +134,11 @@ struct LoopEvaluator::State::LoopLanes {
     both_return = rate_return + position_part;
     inverse_square = 1.0 / numerics::square(both_return);
     inverse = numerics::conjugate(both_return) * inverse_square;
-    act = -part<width>(grid.beam_command, k) * inverse;
+    act = -part<width>(grid.boresight_command, k) * inverse;
     position_wind = rp * wind_angle;
     rate_wind = r * part<width>(grid.tachometer_wind, k) + position_wind;
     measured = rate_wind + pressure_wind;
-    wind = part<width>(grid.beam_wind, k) + act * measured;
+    wind = part<width>(grid.boresight_wind, k) + act * measured;
     if (gusts) {
       demand_by_wind = -measured * inverse;
       torque_by_wind =
@@ -146,9 +147,9 @@ struct LoopEvaluator::State::LoopLanes {
   }
 };
 
-LoopEvaluator::State::Sweep LoopEvaluator::State::prepare(const ControlLaw& law) const {
+LoopEvaluator::State::Sweep LoopEvaluator::State::prepare(const Controller& controller) const {
   Sweep sweep;
-  sweep.law = &law;
+  sweep.controller = &controller;
   const double per_band = 1.0 / noise_.bandwidth;
   sweep.encoder_density = noise_.encoder_rms * noise_.encoder_rms * per_band;
   sweep.tachometer_density = noise_.tachometer_rms * noise_.tachometer_rms * per_band;
@@ -157,7 +158,7 @@ LoopEvaluator::State::Sweep LoopEvaluator::State::prepare(const ControlLaw& law)
   std::size_t count = 0;
   for (std::size_t path = 0; path < 4; ++path) {
     std::size_t next = 0;
-    for (const LoopBlock& block : law.structure.blocks()) {
+    for (const LoopBlock& block : controller.structure.blocks()) {
       if (static_cast<std::size_t>(block.path) == path) {
         sweep.blocks[count++] = {block.kind, next};
         for (std::size_t j = 0; j < block.gains.size(); ++j) sweep.path_of_gain[next + j] = path;
@@ -180,12 +181,12 @@ struct LoopEvaluator::State::ValueSweep {
       const GridPack& grid = state.packs_[packs[n]];
       LoopValues& values = state.values_[packs[n]];
       const bool noisy = sweep.noisy && grid.noisy;
-      RealPack beam;
+      RealPack boresight;
       for (std::size_t k = 0; k < parts; ++k)
-        set_values<width>(state, sweep, grid, k, values, beam);
+        set_values<width>(state, sweep, grid, k, values, boresight);
       set_turn<width>(values.turn, values.rate_return, values.both_return);
       if (state.panels_.empty()) continue;
-      set_tail<width>(values.beam_tail, rule.tail, beam);
+      set_tail<width>(values.boresight_tail, rule.tail, boresight);
       if (noisy) {
         set_tail<width>(values.effort_tail, rule.tail, values.effort);
       } else {
@@ -201,11 +202,11 @@ struct LoopEvaluator::State::ValueSweep {
   template <std::size_t width>
   [[gnu::always_inline]] static inline void set_values(const State& state, const Sweep& sweep,
                                                        const GridPack& grid, std::size_t k,
-                                                       LoopValues& values, RealPack& beam) {
+                                                       LoopValues& values, RealPack& boresight) {
     using RealPart = RealLanes<width>;
     LoopLanes<width> loop;
-    typename LoopLanes<width>::Compensators law;
-    loop.template fill<false>(sweep, grid, k, state.gusts_, law, nullptr);
+    typename LoopLanes<width>::Compensators controller;
+    loop.template fill<false>(sweep, grid, k, state.gusts_, controller, nullptr);
     set_part(values.rate_return, k, loop.rate_return);
     set_part(values.both_return, k, loop.both_return);
     set_part(values.sensitivity_square[1], k, loop.inverse_square);
@@ -223,17 +224,17 @@ struct LoopEvaluator::State::ValueSweep {
     }
     RealPart noise{}, effort{};
     if (sweep.noisy && grid.noisy) {
-      const auto& [r, q, p, c] = law;
+      const auto& [r, q, p, c] = controller;
       const RealPart demand = (sweep.tachometer_density * numerics::square(r) +
                                sweep.encoder_density * numerics::square(loop.rp) +
                                sweep.torque_density * numerics::square(q - loop.rp * c)) *
                               loop.inverse_square;
       effort = part<width>(grid.noise_weight, k) * demand;
-      noise = numerics::square(part<width>(grid.beam_command, k)) * effort;
+      noise = numerics::square(part<width>(grid.boresight_command, k)) * effort;
     }
     set_part(values.noise, k, noise);
     set_part(values.effort, k, effort);
-    set_part(beam, k, wind + noise);
+    set_part(boresight, k, wind + noise);
   }
 };
 
@@ -243,14 +244,14 @@ void LoopEvaluator::State::sweep_values(const Sweep& sweep, const std::uint32_t*
 }
 
 struct LoopEvaluator::State::GradientSums {
-  std::array<RealPack, most_gains> wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
+  std::array<RealPack, max_gains> wind{}, noise{}, effort{}, wind_demand{}, wind_torque{};
 };
 
 struct LoopEvaluator::State::GradientSweep {
   template <std::size_t width>
   [[gnu::always_inline]] static inline void run(const State& state, const Sweep& sweep,
                                                 GradientSums& sums) {
-    std::array<ComplexLanes<width>, most_gains> by_gain;  // d ln X/d ln g of its own compensator X
+    std::array<ComplexLanes<width>, max_gains> by_gain;  // d ln X/d ln g of its own compensator X
     for (const std::uint32_t i : state.leaves_) {
       const GridPack& grid = state.packs_[i];
       if (!grid.weighted) continue;
@@ -267,18 +268,19 @@ struct LoopEvaluator::State::GradientSweep {
   }
 
   template <std::size_t width>
-  [[gnu::always_inline]] static inline void add(
-      const State& state, const Sweep& sweep, const GridPack& grid, std::size_t k,
-      std::array<ComplexLanes<width>, most_gains>& by_gain, GradientSums& sums) {
+  [[gnu::always_inline]] static inline void add(const State& state, const Sweep& sweep,
+                                                const GridPack& grid, std::size_t k,
+                                                std::array<ComplexLanes<width>, max_gains>& by_gain,
+                                                GradientSums& sums) {
     using Loop = LoopLanes<width>;
     using RealPart = RealLanes<width>;
     using ComplexPart = ComplexLanes<width>;
-    const std::size_t gains = sweep.law->gains.size();
+    const std::size_t gains = sweep.controller->gains.size();
     const auto& path_of_gain = sweep.path_of_gain;
     Loop loop;
-    typename Loop::Compensators law;
-    loop.template fill<true>(sweep, grid, k, state.gusts_, law, by_gain.data());
-    const auto& [r, q, p, c] = law;
+    typename Loop::Compensators controller;
+    loop.template fill<true>(sweep, grid, k, state.gusts_, controller, by_gain.data());
+    const auto& [r, q, p, c] = controller;
     // Derivatives of D2 by each compensator, times the compensator.
     const typename Loop::Adjoint return_by{loop.rate_part + loop.position_part, loop.pressure_part,
                                            loop.position_part, -loop.rp * loop.bending_part};
@@ -290,7 +292,7 @@ struct LoopEvaluator::State::GradientSweep {
       if (sweep.present[path]) change[path] = measured_by[path] - turned * return_by[path];
     }
     const auto add_square = [&](const ComplexPart& factor,
-                                std::array<RealPack, most_gains>& gradient) {
+                                std::array<RealPack, max_gains>& gradient) {
       typename Loop::Adjoint adjoint;
       for (std::size_t path = 0; path < 4; ++path) {
         if (sweep.present[path]) adjoint[path] = factor * change[path];
@@ -318,7 +320,8 @@ struct LoopEvaluator::State::GradientSweep {
     const RealPart demand =
         tachometer_square + encoder_square + sweep.torque_density * numerics::square(torque);
     const RealPart noise_weight = part<width>(grid.noise_weight, k);
-    const RealPart to_beam = numerics::square(part<width>(grid.beam_command, k)) * noise_weight;
+    const RealPart to_boresight =
+        numerics::square(part<width>(grid.boresight_command, k)) * noise_weight;
     const ComplexPart torque_left =
         (numerics::conjugate(torque) * loop.inverse) * RealPart(2.0 * sweep.torque_density);
     const RealPart own_rate = 2.0 * (tachometer_square + encoder_square);
@@ -332,7 +335,7 @@ struct LoopEvaluator::State::GradientSweep {
     }
     for (std::size_t g = 0; g < gains; ++g) {
       const RealPart slope = numerics::real_product(adjoint[path_of_gain[g]], by_gain[g]);
-      add_to(sums.noise[g], k, to_beam * slope);
+      add_to(sums.noise[g], k, to_boresight * slope);
       add_to(sums.effort[g], k, noise_weight * slope);
     }
   }
@@ -341,7 +344,7 @@ struct LoopEvaluator::State::GradientSweep {
 void LoopEvaluator::State::sweep_gradients(const Sweep& sweep, LoopEvaluation& result) const {
   GradientSums sums;
   numerics::run_on_widest_lanes<GradientSweep>(*this, sweep, sums);
-  for (std::size_t g = 0; g < sweep.law->gains.size(); ++g) {
+  for (std::size_t g = 0; g < sweep.controller->gains.size(); ++g) {
     result.wind_log_gradient[g] = numerics::sum(sums.wind[g]);
     result.noise_log_gradient[g] = numerics::sum(sums.noise[g]);
     result.effort_log_gradient[g] = numerics::sum(sums.effort[g]);

@@ -52,22 +52,22 @@ void remove_free_angle(plant::StateSpace& core) {
 
 }  // namespace
 
-plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& antenna, const ControlLaw& law,
-                                     double delay) {
+plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& antenna,
+                                     const Controller& controller, double delay) {
   plant::ModalSystem system = plant::to_modal_system(antenna);
-  close_core(system, to_state_space(law), {"wind_torque", "rate_disturbance", "valve_disturbance"},
-             {"beam", "encoder", "tachometer", "motor_torque", "rate_command", "valve_command"},
-             delay);
+  close_core(
+      system, to_state_space(controller), {"wind_torque", "rate_disturbance", "valve_disturbance"},
+      {"beam", "encoder", "tachometer", "motor_torque", "rate_command", "valve_command"}, delay);
   return system;
 }
 
 std::array<PeakGain, 3> sensitivity_bounds(const plant::AntennaPlant& antenna,
-                                           const ControlLaw& law, double delay,
+                                           const Controller& controller, double delay,
                                            const PeakGainOptions& options) {
-  const plant::ModalSystem both = modal_closed_loop(antenna, law, delay);
+  const plant::ModalSystem both = modal_closed_loop(antenna, controller, delay);
   plant::ModalSystem rate = plant::to_modal_system(antenna);
   remove_free_angle(rate.core);
-  close_core(rate, rate_loop_law(law), {"wind_torque", "valve_disturbance"},
+  close_core(rate, rate_loop_controller(controller), {"wind_torque", "valve_disturbance"},
              {"tachometer", "valve_command"}, delay);
   return {peak_gain(rate, "valve_disturbance", "valve_command", options),
           peak_gain(both, "valve_disturbance", "valve_command", options),

@@ -3,18 +3,18 @@
 #include <array>
 
 #include <boresight/control/analysis/peak_gain.hpp>
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 
 namespace boresight::control {
 
 /// Plant, controller and exact dead time as modes around a core. Inputs: wind_torque (N m),
 /// rate_disturbance (rad/s, added to the rate command), valve_disturbance (rad/s, added to the
-/// valve command after the dead time). Outputs: boresight (`beam`) and encoder (rad of motor),
+/// valve command after the dead time). Outputs: boresight (`boresight`) and encoder (rad of motor),
 /// tachometer (rad/s), motor_torque (N m), rate_command and valve_command (rad/s, disturbances
 /// included).
 /// @throws InvalidInput as to_state_space of plant and controller, or for a negative delay.
-plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& plant, const ControlLaw& law,
+plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& plant, const Controller& controller,
                                      double delay);
 
 /// Bounds of Ms, the maximum of |S| over all frequencies, at the breaks of control::loop_breaks, in
@@ -22,7 +22,8 @@ plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& plant, const Con
 /// frequency responses used in tuning: it uses poles and residues of the state space of drive and
 /// controller, and modes in angles relative to the bull gear. The result is at least 1, because S
 /// tends to 1 at infinite frequency.
-std::array<PeakGain, 3> sensitivity_bounds(const plant::AntennaPlant& plant, const ControlLaw& law,
-                                           double delay, const PeakGainOptions& options = {});
+std::array<PeakGain, 3> sensitivity_bounds(const plant::AntennaPlant& plant,
+                                           const Controller& controller, double delay,
+                                           const PeakGainOptions& options = {});
 
 }  // namespace boresight::control

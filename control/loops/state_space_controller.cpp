@@ -212,11 +212,11 @@ ControlledPoint ControlledAntenna::at(double frequency) {
   for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
     if (!has(loop_breaks.at(b))) result.loop_gain.at(b) = nothing;
   }
-  const Complex beam_by_demand = point.beam_command * to_valve * sensitivity;
-  result.beam_by_wind = point.beam_wind + beam_by_demand * driven;
+  const Complex boresight_by_demand = point.boresight_command * to_valve * sensitivity;
+  result.boresight_by_wind = point.boresight_wind + boresight_by_demand * driven;
   for (std::size_t k = 0; k < command.size(); ++k) {
     const Complex gain = column_.at(k) < 0 ? Complex{} : response_(demand_, column_.at(k));
-    result.beam_by_noise.at(k) = beam_by_demand * gain;
+    result.boresight_by_noise.at(k) = boresight_by_demand * gain;
     result.demand_by_noise.at(k) = sensitivity * gain;
   }
   return result;

@@ -21,7 +21,7 @@ namespace boresight::control {
 ///   input    rate_disturbance (rad/s), added to its rate command
 ///   output   rate_command (rad/s), with or without the disturbance at once (feedthrough 1 or 0)
 /// A continuous controller acts through a dead time. A sampled one acts through a zero-order hold,
-/// one sample time after its samples are taken. Examples are to_state_space(ControlLaw) and
+/// one sample time after its samples are taken. Examples are to_state_space(Controller) and
 /// lqg_controller.
 ///
 /// Ports named `reference` or `angle_reference` are set to 0 and removed; a valve_command counts as
@@ -42,9 +42,9 @@ struct ControlledPoint {
   /// Loop gains, S = 1/(1 + L), in the order of loop_breaks; NaN if the controller has no such
   /// loop.
   std::array<std::complex<double>, 3> loop_gain;
-  std::complex<double> beam_by_wind;  // rad/(N m)
+  std::complex<double> boresight_by_wind;  // rad/(N m)
   /// Boresight (rad) and valve demand (rad/s) by the noise of tachometer, encoder and motor torque.
-  std::array<std::complex<double>, 3> beam_by_noise, demand_by_noise;
+  std::array<std::complex<double>, 3> boresight_by_noise, demand_by_noise;
 };
 
 /// The frequency response of an antenna with a state-space controller. The plant takes O(modes)

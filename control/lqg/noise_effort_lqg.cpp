@@ -163,9 +163,9 @@ NoiseEffortDesign noise_effort_lqg(const LqgProblem& problem, const SampledLqgPr
       numerics::positive_definite_solve(seen, common.transpose(), "noise_effort_lqg").transpose();
   const double wanted = (model.error * filter.x * model.error.transpose() +
                          model.error_direct * v * model.error_direct.transpose())(0, 0);
-  const double least = wanted - (direct * common.transpose())(0, 0);
+  const double minimum = wanted - (direct * common.transpose())(0, 0);
   return {extended_controller(sampled, design, model, filter.gain.transpose() + told, direct),
-          design.cost + noise_effort_weight * least};
+          design.cost + noise_effort_weight * minimum};
 }
 
 }  // namespace boresight::control

@@ -71,15 +71,16 @@ void check(const MeasuredPlant& plant, const MeasuredChannelOptions& options) {
   const bool options_hold = options.lowest_coherence >= 0.0 && options.lowest_coherence <= 1.0 &&
                             options.largest_turn_deg > 0.0 && options.largest_turn_deg < 180.0 &&
                             options.largest_factor > 1.0 && options.widest_step > 1.0 &&
-                            options.least_resolved >= 0.0 && options.least_resolved <= 1.0 &&
+                            options.min_resolved >= 0.0 && options.min_resolved <= 1.0 &&
                             options.low_end_factor > 1.0 && options.roll_off > 0.0 &&
                             plant.degrees_of_freedom >= 0.0;
   if (!options_hold) {
     throw InvalidInput(fmt::format(
-        "MeasuredChannels: expected coherence and resolved share from 0 to 1, a turn between 0 and "
+        "MeasuredChannels: expected coherence and resolved fraction from 0 to 1, a turn between 0 "
+        "and "
         "180 degrees, factors and step above 1, a positive roll-off and no negative degrees of "
         "freedom, found {}, {}, {}, {}, {}, {}, {} and {}",
-        options.lowest_coherence, options.least_resolved, options.largest_turn_deg,
+        options.lowest_coherence, options.min_resolved, options.largest_turn_deg,
         options.largest_factor, options.low_end_factor, options.widest_step, options.roll_off,
         plant.degrees_of_freedom));
   }
@@ -162,7 +163,7 @@ const std::vector<PointBand>& MeasuredChannels::unresolved() const {
 const std::vector<PointBand>& MeasuredChannels::encoder_assumed() const {
   return data_->encoder_assumed;
 }
-double MeasuredChannels::resolved_share() const {
+double MeasuredChannels::resolved_fraction() const {
   return data_->resolved;
 }
 double MeasuredChannels::degrees_of_freedom() const {

@@ -36,8 +36,8 @@ struct OilSpring {
 
 /// Flexure beyond the encoder (non-collocated), from a model of the structure.
 struct BendingPoint {
-  std::complex<double> beam_per_encoder{1.0, 0.0};  // rad/rad
-  std::complex<double> beam_per_wind{0.0, 0.0};     // rad/(N m), encoder held
+  std::complex<double> boresight_per_encoder{1.0, 0.0};  // rad/rad
+  std::complex<double> boresight_per_wind{0.0, 0.0};     // rad/(N m), encoder held
 };
 
 struct MeasuredChannelOptions {
@@ -51,7 +51,7 @@ struct MeasuredChannelOptions {
   double largest_factor = 2.0;
   double widest_step = 4.0;
   /// Fraction of the band (in ln w) that usable points must resolve.
-  double least_resolved = 0.5;
+  double min_resolved = 0.5;
   /// The points up to this factor above the lowest frequency determine the behaviour below it.
   double low_end_factor = 2.5;
   /// Above the highest frequency magnitudes are assumed to fall as w^-roll_off (one power more for
@@ -132,7 +132,7 @@ class MeasuredChannels {
   const std::vector<PointBand>& unresolved() const;
   const std::vector<PointBand>& encoder_assumed() const;
   /// Fraction of ln(highest/lowest) that is resolved.
-  double resolved_share() const;
+  double resolved_fraction() const;
   double degrees_of_freedom() const;
   bool has_covariance() const;
   bool has_encoder() const;

@@ -28,22 +28,23 @@ double confidence_radius(double confidence, double degrees_of_freedom) {
   return std::sqrt(degrees_of_freedom * std::expm1(exponent / degrees_of_freedom));
 }
 
-MeasuredLoopPoint measured_loop_point(const MeasuredChannels& channels, const ControlLaw& law,
-                                      double delay, LoopBreak loop_break, double frequency) {
+MeasuredLoopPoint measured_loop_point(const MeasuredChannels& channels,
+                                      const Controller& controller, double delay,
+                                      LoopBreak loop_break, double frequency) {
   const plant::ResponsePoint response = channels.at(frequency);
-  const CompensatorResponse c = compensator_response(law, frequency);
+  const CompensatorResponse c = compensator_response(controller, frequency);
   const Complex dead_time = std::polar(1.0, -frequency * delay);
   const Complex rate_return =
-      1.0 + loop_gain(response, frequency, law, delay, LoopBreak::rate_loop_alone);
+      1.0 + loop_gain(response, frequency, controller, delay, LoopBreak::rate_loop_alone);
   const Complex both_return =
-      1.0 + loop_gain(response, frequency, law, delay, LoopBreak::valve_command);
+      1.0 + loop_gain(response, frequency, controller, delay, LoopBreak::valve_command);
   const Complex angle = c.rate * c.position;
   // Derivatives of both returns by tachometer, torque and encoder per command.
   const Eigen::RowVector3cd rate = Eigen::RowVector3cd{c.rate, c.pressure, 0.0} * dead_time;
   const Eigen::RowVector3cd both =
       Eigen::RowVector3cd{c.rate, c.pressure - angle * c.compliance, angle} * dead_time;
   MeasuredLoopPoint point;
-  point.loop_gain = loop_gain(response, frequency, law, delay, loop_break);
+  point.loop_gain = loop_gain(response, frequency, controller, delay, loop_break);
   switch (loop_break) {
     case LoopBreak::rate_loop_alone:
       point.log_sensitivity = -rate / rate_return;
@@ -61,10 +62,11 @@ MeasuredLoopPoint measured_loop_point(const MeasuredChannels& channels, const Co
   return point;
 }
 
-LoopChannels least_favourable(const MeasuredChannels& channels, const ControlLaw& law, double delay,
-                              LoopBreak loop_break, double radius, const Eigen::ArrayXd& grid) {
-  return sampled_on(grid, [channels, law, delay, loop_break, radius](double w) {
-    const MeasuredLoopPoint loop = measured_loop_point(channels, law, delay, loop_break, w);
+LoopChannels least_favourable(const MeasuredChannels& channels, const Controller& controller,
+                              double delay, LoopBreak loop_break, double radius,
+                              const Eigen::ArrayXd& grid) {
+  return sampled_on(grid, [channels, controller, delay, loop_break, radius](double w) {
+    const MeasuredLoopPoint loop = measured_loop_point(channels, controller, delay, loop_break, w);
     if (!(loop.relative_error > 0.0)) return channels.at(w);
     const double length =
         std::min(radius, largest_error / loop.relative_error) / loop.relative_error;

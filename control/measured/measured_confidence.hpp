@@ -18,8 +18,9 @@ struct MeasuredLoopPoint {
   /// Standard deviation of S over |S|: sqrt(E|d ln S|^2), |dL/(1 + L)| in a simple loop.
   double relative_error = 0.0;
 };
-MeasuredLoopPoint measured_loop_point(const MeasuredChannels& channels, const ControlLaw& law,
-                                      double delay, LoopBreak loop_break, double frequency);
+MeasuredLoopPoint measured_loop_point(const MeasuredChannels& channels,
+                                      const Controller& controller, double delay,
+                                      LoopBreak loop_break, double frequency);
 
 /// The response within its confidence region that maximises |S| of a controller at a break, at each
 /// frequency. The errors are `radius` standard deviations in the direction of the steepest rise of
@@ -27,7 +28,8 @@ MeasuredLoopPoint measured_loop_point(const MeasuredChannels& channels, const Co
 /// in the responses, |S| becomes |S|/(1 - radius relative_error), and no other response within the
 /// confidence region has a larger one. The product of radius and relative error is limited to 0.7,
 /// so that the evaluation of a controller far from its limits remains smooth.
-LoopChannels least_favourable(const MeasuredChannels& channels, const ControlLaw& law, double delay,
-                              LoopBreak loop_break, double radius, const Eigen::ArrayXd& grid);
+LoopChannels least_favourable(const MeasuredChannels& channels, const Controller& controller,
+                              double delay, LoopBreak loop_break, double radius,
+                              const Eigen::ArrayXd& grid);
 
 }  // namespace boresight::control

@@ -163,12 +163,12 @@ void MeasuredChannels::Data::find_unresolved(double lowest_asked, double highest
     unresolved.push_back({std::exp(x[i]), std::exp(x[i + 1])});
   }
   resolved = 1.0 - lost / std::log(highest_asked / lowest_asked);
-  if (!(resolved >= options.least_resolved)) {
+  if (!(resolved >= options.min_resolved)) {
     throw NumericalFailure(fmt::format(
         "MeasuredChannels: the usable points resolve {:.0f} % of {:.4g} to {:.4g} Hz, {:.0f} % are "
         "asked for: {} points have a coherence below {:g}. Excite the drive more, or longer",
         100.0 * resolved, lowest_asked / two_pi, highest_asked / two_pi,
-        100.0 * options.least_resolved, left_out, options.lowest_coherence));
+        100.0 * options.min_resolved, left_out, options.lowest_coherence));
   }
 }
 

@@ -92,8 +92,9 @@ struct MeasuredChannels::Data {
     point.torque_wind = -h * rate_wind;
     point.encoder_wind = angle / (torque + h * rate);
     const BendingPoint bending = options.bending ? options.bending(w) : BendingPoint{};
-    point.beam_command = bending.beam_per_encoder * angle;
-    point.beam_wind = bending.beam_per_encoder * point.encoder_wind + bending.beam_per_wind;
+    point.boresight_command = bending.boresight_per_encoder * angle;
+    point.boresight_wind =
+        bending.boresight_per_encoder * point.encoder_wind + bending.boresight_per_wind;
     return point;
   }
 

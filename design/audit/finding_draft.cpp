@@ -9,8 +9,8 @@
 namespace boresight::design {
 namespace {
 
-constexpr std::size_t most_explanations = 2;
-constexpr std::size_t most_consequences = 3;
+constexpr std::size_t max_explanations = 2;
+constexpr std::size_t max_derived_quantities = 3;
 
 class Explanation {
  public:
@@ -42,7 +42,7 @@ class Explanation {
             owners.push_back(d);
           }
         }
-        texts.resize(std::min(most_explanations, texts.size()));
+        texts.resize(std::min(max_explanations, texts.size()));
         for (const std::string& text : texts) explanations.push_back(prefix + text);
       }
       needs.push_back(needed);
@@ -146,20 +146,21 @@ void explain_drafts(const AuditGraph& graph, std::vector<FindingDraft>& drafts,
   Explanation(graph, drafts, corrected, evidence).run();
 }
 
-void add_consequences(const AuditGraph& graph, FindingDraft& found) {
+void add_derived_quantities(const AuditGraph& graph, FindingDraft& found) {
   const DepartingForm& form = found.finding.forms.front();
-  std::vector<Consequence> moved;
+  std::vector<DerivedQuantity> moved;
   for (std::size_t i = 0; i < graph.nodes().size(); ++i) {
     if (!graph.node(i).headline || !graph.descends_from(i, found.node)) continue;
     moved.push_back({graph.node(i).id, graph.node(i).unit,
                      graph.derive(i, {{found.node, form.printed}}),
                      graph.derive(i, {{found.node, form.would_be}})});
   }
-  std::stable_sort(moved.begin(), moved.end(), [](const Consequence& a, const Consequence& b) {
-    return std::abs(a.relative_change()) > std::abs(b.relative_change());
-  });
-  moved.resize(std::min(most_consequences, moved.size()));
-  found.finding.consequences = std::move(moved);
+  std::stable_sort(moved.begin(), moved.end(),
+                   [](const DerivedQuantity& a, const DerivedQuantity& b) {
+                     return std::abs(a.relative_change()) > std::abs(b.relative_change());
+                   });
+  moved.resize(std::min(max_derived_quantities, moved.size()));
+  found.finding.derived_quantities = std::move(moved);
 }
 
 std::string_view to_string(FindingKind kind) {
@@ -178,7 +179,7 @@ double DepartingForm::relative_error() const {
   return printed / would_be - 1.0;
 }
 
-double Consequence::relative_change() const {
+double DerivedQuantity::relative_change() const {
   return as_printed / as_corrected - 1.0;
 }
 

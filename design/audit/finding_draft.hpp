@@ -36,6 +36,6 @@ void explain_drafts(const AuditGraph& graph, std::vector<FindingDraft>& drafts,
                     const AuditGraph::Values& corrected, const EvidenceByStatement& evidence);
 
 /// Recomputes the dependent headline results with the printed and with the corrected number.
-void add_consequences(const AuditGraph& graph, FindingDraft& draft);
+void add_derived_quantities(const AuditGraph& graph, FindingDraft& draft);
 
 }  // namespace boresight::design

@@ -310,7 +310,7 @@ std::vector<CommonCause> common_causes(const AuditGraph& graph,
   std::vector<CommonCause> causes;
   for (const auto& [ancestor, candidates] : intervals) {
     CommonCause best;
-    std::size_t most = 2;
+    std::size_t maximum = 2;
     for (const Span& start : candidates) {
       // The largest group of intervals with a common point has one at the start of one of them.
       double high = start.high;
@@ -323,8 +323,8 @@ std::vector<CommonCause> common_causes(const AuditGraph& graph,
         group.departures.push_back(other.departure);
       }
       group.value = 0.5 * (start.low + high);
-      if (nodes.size() > most) {
-        most = nodes.size();
+      if (nodes.size() > maximum) {
+        maximum = nodes.size();
         best = group;
       }
     }

@@ -44,7 +44,7 @@ class Search {
                      });
     std::vector<Finding> findings;
     for (FindingDraft& draft : drafts_) {
-      add_consequences(graph_, draft);
+      add_derived_quantities(graph_, draft);
       findings.push_back(std::move(draft.finding));
     }
     return findings;

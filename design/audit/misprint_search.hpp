@@ -30,7 +30,7 @@ struct DepartingForm {
 };
 
 /// A headline result with the number as printed and as corrected.
-struct Consequence {
+struct DerivedQuantity {
   std::string id;
   std::string unit;
   double as_printed = 0.0;
@@ -56,7 +56,7 @@ struct Finding {
   /// Evidence for one column where two conflict.
   std::vector<std::string> evidence;
   /// Largest relative change first, at most three.
-  std::vector<Consequence> consequences;
+  std::vector<DerivedQuantity> derived_quantities;
 };
 
 /// Recomputes every printed number of the graph and returns those that do not follow:

@@ -33,8 +33,8 @@ struct WindIntegral {
 };
 
 struct WindIntegrals {
-  WindIntegral torque;  // (N m)^2 at the motor
-  WindIntegral beam;    // rad^2 of motor
+  WindIntegral torque;     // (N m)^2 at the motor
+  WindIntegral boresight;  // rad^2 of motor
 };
 
 WindIntegrals wind_integrals(const TrackingProblem& problem, const RejectionResponse& response,
@@ -50,7 +50,7 @@ WindIntegrals wind_integrals(const TrackingProblem& problem, const RejectionResp
       if (weight == 0.0) continue;
       const double power = weight * table.spectrum(response.frequency[i]);
       result.torque.*part += power;
-      result.beam.*part += power * response.beam_by_wind_square[i];
+      result.boresight.*part += power * response.boresight_by_wind_square[i];
     }
   };
   WindIntegrals result;
@@ -75,10 +75,10 @@ WindScore wind_score(const TrackingProblem& problem, const WindIntegrals& integr
   score.model = model;
   score.mean_speed = speed;
   const double ratio = problem.gear_ratio;
-  const double wind = integrals.beam.at(attitude.torque_coefficient);
+  const double wind = integrals.boresight.at(attitude.torque_coefficient);
   score.torque_rms = std::sqrt(integrals.torque.at(attitude.torque_coefficient)) * ratio;
   score.wind_rms = std::sqrt(wind) / ratio;
-  score.beam_rms = std::sqrt(wind + noise_variance) / ratio;
+  score.boresight_rms = std::sqrt(wind + noise_variance) / ratio;
   return score;
 }
 
@@ -119,7 +119,7 @@ double speed_limit(const TrackingProblem& problem, const RejectionResponse& resp
   const auto excess = [&](double log_speed) {
     const auto integrals =
         wind_integrals(problem, response, problem.wind.model, std::exp(log_speed));
-    return std::log(integrals.beam.at(coefficient) / wanted);
+    return std::log(integrals.boresight.at(coefficient) / wanted);
   };
   double low = std::log(0.1), high = std::log(60.0);
   double below = excess(low), above = excess(high);
@@ -147,68 +147,68 @@ double speed_limit(const TrackingProblem& problem, const RejectionResponse& resp
   return std::exp(middle);
 }
 
-RejectionMember judge_member(const TrackingProblem& problem, const EnsembleMember& member,
-                             const HardGoals& goals, const plant::StateSpace& controller,
-                             const WindTable& wind) {
+RejectionMember evaluate_member(const TrackingProblem& problem, const EnsembleMember& member,
+                                const Constraints& goals, const plant::StateSpace& controller,
+                                const WindTable& wind) {
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   RejectionMember result{member.name, false, false, nothing, nothing, {nothing, nothing, nothing}};
   TrackingProblem other = problem;
   other.plant = member.plant;
-  if (!control::ControlledCourse(member.plant, controller, problem.delay).stable()) return result;
+  if (!control::ClosedLoopResponse(member.plant, controller, problem.delay).stable()) return result;
   result.stable = true;
   const RejectionResponse response = rejection_response(other, controller);
   double variance = response.noise_variance;
   for (Eigen::Index i = 0; i < response.frequency.size(); ++i) {
     if (response.wind_weight[i] == 0.0) continue;
-    variance += response.wind_weight[i] * response.beam_by_wind_square[i] *
+    variance += response.wind_weight[i] * response.boresight_by_wind_square[i] *
                 wind.spectrum(response.frequency[i]);
   }
-  result.beam_rms = std::sqrt(variance) / problem.gear_ratio;
-  result.valve_effort = std::sqrt(response.effort_variance);
+  result.boresight_rms = std::sqrt(variance) / problem.gear_ratio;
+  result.control_effort = std::sqrt(response.effort_variance);
   constexpr double rounding = 1.0 + 1e-4;  // of a tuned law that stands at its goal
-  result.within_goals = result.valve_effort <= goals.valve_effort * rounding;
+  result.within_constraints = result.control_effort <= goals.control_effort * rounding;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const double peak = response.peak(b);
     result.sensitivity_peaks.at(b) = peak;
-    if (peak > goals.sensitivity_peak.at(b) * rounding) result.within_goals = false;
+    if (peak > goals.sensitivity_peak.at(b) * rounding) result.within_constraints = false;
   }
   return result;
 }
 
-RejectionEnsemble judge_members(const TrackingProblem& problem, const HardGoals& goals,
-                                const plant::StateSpace& controller,
-                                const RejectionOptions& options) {
+RejectionEnsemble evaluate_members(const TrackingProblem& problem, const Constraints& goals,
+                                   const plant::StateSpace& controller,
+                                   const RejectionOptions& options) {
   RejectionEnsemble result;
   result.members.resize(options.members.size());
   const WindTable wind(problem);
   numerics::for_each_index(options.members.size(), options.threads, [&](std::size_t i) {
-    result.members[i] = judge_member(problem, options.members[i], goals, controller, wind);
+    result.members[i] = evaluate_member(problem, options.members[i], goals, controller, wind);
   });
   for (const auto& member : result.members) {
     result.stable += member.stable ? 1 : 0;
-    result.within_goals += member.within_goals ? 1 : 0;
-    if (member.stable) result.largest_rms = std::max(result.largest_rms, member.beam_rms);
+    result.within_constraints += member.within_constraints ? 1 : 0;
+    if (member.stable) result.largest_rms = std::max(result.largest_rms, member.boresight_rms);
   }
   return result;
 }
 
-RejectionReference reference_of(const TrackingProblem& problem, const HardGoals& goals,
+RejectionReference reference_of(const TrackingProblem& problem, const Constraints& goals,
                                 double sample_time, double effort, unsigned threads) {
   RejectionReference reference;
-  reference.encoder_held_rms = encoder_held_rms(problem);
+  reference.flexure_rms = flexure_rms(problem);
   const auto& noise = problem.noise;
   if (!(noise.encoder_rms > 0.0) || !(noise.tachometer_rms > 0.0) || !(sample_time > 0.0)) {
     return reference;
   }
   const PointingLimit limit =
       pointing_limit(problem, goals, {}, {}, {.sample_time = sample_time, .threads = threads});
-  reference.least_rms = limit.least_rms;
-  reference.least_rms_at_own_effort = limit.bound.least_rms(effort);
+  reference.min_rms = limit.min_rms;
+  reference.min_rms_at_own_effort = limit.bound.min_rms(effort);
   return reference;
 }
 
 // From the motor's axis, per torque there, to the sky, per torque at the antenna's axis.
-control::CourseScore at_sky(control::CourseScore score, double gear_ratio) {
+control::ResponseScore at_sky(control::ResponseScore score, double gear_ratio) {
   const double square = gear_ratio * gear_ratio;
   score.final_value /= square;
   score.peak /= square;
@@ -250,55 +250,55 @@ std::vector<double> compliance_frequencies() {
   }
 }
 
-RejectionScore rejection_benchmark(const TrackingProblem& problem, const HardGoals& goals,
+RejectionScore rejection_benchmark(const TrackingProblem& problem, const Constraints& goals,
                                    const plant::StateSpace& controller,
                                    const RejectionOptions& options) {
   validate(goals);
-  const plant::StateSpace law = control::antenna_state_space_controller(controller);
+  const plant::StateSpace antenna_form = control::antenna_state_space_controller(controller);
   const double square = problem.gear_ratio * problem.gear_ratio;
   RejectionScore score;
-  const control::ControlledCourse course(problem.plant, law, problem.delay);
+  const control::ClosedLoopResponse course(problem.plant, antenna_form, problem.delay);
   score.abscissa = course.abscissa();
   score.stable = course.stable();
-  control::ControlledAntenna loop(problem.plant, law, problem.delay);
+  control::ControlledAntenna loop(problem.plant, antenna_form, problem.delay);
   if (loop.has(control::LoopBreak::rate_loop_alone)) {
-    score.rate_loop_stable =
-        control::ControlledCourse(problem.plant, control::rate_loop_of(law), problem.delay)
-            .spectral_radius() < free_angle;
+    score.rate_loop_stable = control::ClosedLoopResponse(
+                                 problem.plant, control::rate_loop_of(antenna_form), problem.delay)
+                                 .spectral_radius() < free_angle;
   }
   if (!score.stable) return score;
 
-  score.step = at_sky(course.score(control::TorqueCourse::step), problem.gear_ratio);
-  score.impulse = at_sky(course.score(control::TorqueCourse::impulse), problem.gear_ratio);
+  score.step = at_sky(course.score(control::DisturbanceType::step), problem.gear_ratio);
+  score.impulse = at_sky(course.score(control::DisturbanceType::impulse), problem.gear_ratio);
   score.static_compliance = std::abs(score.step.final_value);
-  score.worst = control::worst_compliance(problem.plant, law, problem.delay);
+  score.worst = control::worst_compliance(problem.plant, antenna_form, problem.delay);
   score.worst.lower /= square;
   score.worst.upper /= square;
   for (const auto& mode : problem.plant.structure.modes) {
-    score.encoder_held_compliance += mode.beam_weight * mode.wind_fraction / mode.stiffness;
+    score.flexure_compliance += mode.beam_weight * mode.wind_fraction / mode.stiffness;
   }
-  score.encoder_held_compliance = std::abs(score.encoder_held_compliance) / square;
+  score.flexure_compliance = std::abs(score.flexure_compliance) / square;
   for (const double frequency : compliance_frequencies()) {
     score.compliance.push_back(
-        {frequency, std::abs(loop.at(two_pi * frequency).beam_by_wind) / square});
+        {frequency, std::abs(loop.at(two_pi * frequency).boresight_by_wind) / square});
   }
-  const RejectionResponse response = rejection_response(problem, law);
-  score.breaks = break_scores(problem, law, response);
+  const RejectionResponse response = rejection_response(problem, antenna_form);
+  score.breaks = break_scores(problem, antenna_form, response);
   score.noise_rms = std::sqrt(response.noise_variance) / problem.gear_ratio;
-  score.valve_effort = std::sqrt(response.effort_variance);
+  score.control_effort = std::sqrt(response.effort_variance);
   const WindAttitudeCoefficient own{"", problem.wind.site.torque_coefficient};
   score.design_wind = wind_score(
       problem, wind_integrals(problem, response, problem.wind.model, problem.wind.mean_speed), own,
       problem.wind.model, problem.wind.mean_speed, response.noise_variance);
   TrackingProblem windy = problem;
   windy.climate.clear();
-  score.lyapunov_rms = rejection_lyapunov_rms(windy, law) / problem.gear_ratio;
-  const double disagreement = std::abs(score.lyapunov_rms / score.design_wind.beam_rms - 1.0);
+  score.lyapunov_rms = rejection_lyapunov_rms(windy, antenna_form) / problem.gear_ratio;
+  const double disagreement = std::abs(score.lyapunov_rms / score.design_wind.boresight_rms - 1.0);
   if (!(disagreement < largest_disagreement)) {
     throw NumericalFailure(fmt::format(
-        "rejection_benchmark: the beam's rms is {:.6g} rad by its spectrum and {:.6g} rad by "
+        "rejection_benchmark: the boresight rms is {:.6g} rad by its spectrum and {:.6g} rad by "
         "Lyapunov equations: no trustworthy result",
-        score.design_wind.beam_rms, score.lyapunov_rms));
+        score.design_wind.boresight_rms, score.lyapunov_rms));
   }
 
   const auto part = [&](const char* name, const std::function<void()>& work) {
@@ -316,13 +316,15 @@ RejectionScore rejection_benchmark(const TrackingProblem& problem, const HardGoa
     });
   });
   part("ensemble", [&] {
-    if (!options.members.empty()) score.ensemble = judge_members(windy, goals, law, options);
+    if (!options.members.empty())
+      score.ensemble = evaluate_members(windy, goals, antenna_form, options);
   });
   part("best that any controller can do", [&] {
-    const double sample_time = law.sample_time > 0.0       ? law.sample_time
-                               : options.sample_time > 0.0 ? options.sample_time
-                                                           : problem.delay / 1.5;
-    score.reference = reference_of(windy, goals, sample_time, score.valve_effort, options.threads);
+    const double sample_time = antenna_form.sample_time > 0.0 ? antenna_form.sample_time
+                               : options.sample_time > 0.0    ? options.sample_time
+                                                              : problem.delay / 1.5;
+    score.reference =
+        reference_of(windy, goals, sample_time, score.control_effort, options.threads);
   });
   return score;
 }

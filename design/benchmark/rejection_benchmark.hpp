@@ -8,7 +8,7 @@
 
 #include <boresight/control/analysis/margins.hpp>
 #include <boresight/control/analysis/peak_gain.hpp>
-#include <boresight/control/loops/state_space_controller_course.hpp>
+#include <boresight/control/loops/state_space_controller_response.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
@@ -61,33 +61,33 @@ struct WindScore {
   double mean_speed = 0.0;  // m/s
   double torque_rms = 0.0;  // N m at the antenna's axis
   double wind_rms = 0.0;
-  double beam_rms = 0.0;  // with the sensors' noise
+  double boresight_rms = 0.0;  // with the sensors' noise
 };
 
 /// The controller on one ensemble member.
 struct RejectionMember {
   std::string name;
   bool stable = false;
-  bool within_goals = false;
-  double beam_rms = 0.0;                      // rad at the sky; NaN if unstable, as below
-  double valve_effort = 0.0;                  // rad/s
+  bool within_constraints = false;
+  double boresight_rms = 0.0;                 // rad at the sky; NaN if unstable, as below
+  double control_effort = 0.0;                // rad/s
   std::array<double, 3> sensitivity_peaks{};  // NaN where there is no such loop
 };
 
 struct RejectionEnsemble {
   std::vector<RejectionMember> members;
   int stable = 0;
-  int within_goals = 0;
+  int within_constraints = 0;
   double largest_rms = 0.0;  // of the stable ones
 };
 
 /// Lower bounds on the rms of any controller, and the flexure beyond the encoder, in the design
 /// wind.
 struct RejectionReference {
-  double encoder_held_rms = 0.0;  // rad: flexure beyond the encoder with the encoder at rest
+  double flexure_rms = 0.0;  // rad: flexure beyond the encoder with the encoder at rest
   /// Lower bounds of any linear sampled controller (design/limits/pointing_limit.hpp): at the
   /// constraint's control effort and at this controller's own. None where a sensor has no noise.
-  std::optional<double> least_rms, least_rms_at_own_effort;
+  std::optional<double> min_rms, min_rms_at_own_effort;
 };
 
 /// A score sheet. All at the sky and at the antenna's axis: rad, N m.
@@ -97,14 +97,14 @@ struct RejectionScore {
   /// With the position loop open; none where the controller has no rate loop.
   std::optional<bool> rate_loop_stable;
   // Empty unless stable.
-  control::CourseScore step, impulse;    // per N m, per N m s
+  control::ResponseScore step, impulse;  // per N m, per N m s
   control::PeakGain worst;               // rad/(N m), frequency in rad/s
   double static_compliance = 0.0;        // rad/(N m)
-  double encoder_held_compliance = 0.0;  // the same with the encoder at rest: the flexure
+  double flexure_compliance = 0.0;       // the same with the encoder at rest: the flexure
   std::vector<CompliancePoint> compliance;
   std::array<BreakScore, 3> breaks;
-  double noise_rms = 0.0;     // rad
-  double valve_effort = 0.0;  // rad/s of motor
+  double noise_rms = 0.0;       // rad
+  double control_effort = 0.0;  // rad/s of motor
   /// In the problem's wind: torque, and the boresight rms by spectrum. `lyapunov_rms`: the same,
   /// independently, by Lyapunov equations with the wind's shaping filter.
   WindScore design_wind;
@@ -120,8 +120,8 @@ struct RejectionScore {
 /// unstable closed loop gives a result with only its poles set. The result does not depend on the
 /// number of threads. Takes some 0.1 s, plus 1 s for the reference and 0.02 s per member.
 /// @throws InvalidInput as antenna_state_space_controller, validate(goals); NumericalFailure as
-/// control::ControlledCourse, and if spectrum and Lyapunov equations differ by more than 2 %.
-RejectionScore rejection_benchmark(const TrackingProblem& problem, const HardGoals& goals,
+/// control::ClosedLoopResponse, and if spectrum and Lyapunov equations differ by more than 2 %.
+RejectionScore rejection_benchmark(const TrackingProblem& problem, const Constraints& goals,
                                    const plant::StateSpace& controller,
                                    const RejectionOptions& options = {});
 

@@ -24,8 +24,8 @@ std::vector<std::string> measured_by(const plant::StateSpace& controller) {
 }
 
 plant::StateSpace demand_only(const plant::StateSpace& controller) {
-  const auto law = control::antenna_state_space_controller(controller);
-  return plant::subsystem(law, measured_by(law), {"valve_demand"});
+  const auto antenna_form = control::antenna_state_space_controller(controller);
+  return plant::subsystem(antenna_form, measured_by(antenna_form), {"valve_demand"});
 }
 
 // The demand to the valve.
@@ -66,15 +66,17 @@ double variance(double rms, double bandwidth, const Eigen::ArrayXd& square,
 
 Eigen::VectorXcd controlled_poles(const plant::AntennaPlant& antenna,
                                   const plant::StateSpace& controller, double delay) {
-  const auto law = demand_only(controller);
+  const auto antenna_form = demand_only(controller);
   const auto plant_part = plant::to_state_space(antenna);
-  if (law.sample_time > 0.0) {
+  if (antenna_form.sample_time > 0.0) {
     const control::SampledLoop loop{
-        plant_part, plant::renamed(law, {{"valve_demand", "valve_command"}}), law.sample_time};
+        plant_part, plant::renamed(antenna_form, {{"valve_demand", "valve_command"}}),
+        antenna_form.sample_time};
     return plant::continuous_equivalent(numerics::eigenvalues(control::sampled_closed_loop(loop).a),
-                                        law.sample_time);
+                                        antenna_form.sample_time);
   }
-  const auto closed = plant::connect({plant_part, law, delayed(delay)}, {"wind_torque"}, {"beam"});
+  const auto closed =
+      plant::connect({plant_part, antenna_form, delayed(delay)}, {"wind_torque"}, {"beam"});
   return numerics::eigenvalues(closed.a);
 }
 
@@ -121,19 +123,19 @@ RejectionResponse rejection_response(const TrackingProblem& problem,
   result.frequency = rule.frequency;
   result.wind_weight = within(band.lowest, band.highest);
   result.noise_weight = within(band.lowest, noise_end);
-  result.beam_by_wind_square.resize(count);
+  result.boresight_by_wind_square.resize(count);
   for (auto& sensitivity : result.sensitivity) sensitivity.resize(count);
-  std::array<Eigen::ArrayXd, 3> beam, demand;
-  for (std::size_t k = 0; k < beam.size(); ++k) {
-    beam.at(k).resize(count);
+  std::array<Eigen::ArrayXd, 3> boresight, demand;
+  for (std::size_t k = 0; k < boresight.size(); ++k) {
+    boresight.at(k).resize(count);
     demand.at(k).resize(count);
   }
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto point = loop.at(rule.frequency[i]);
-    result.beam_by_wind_square[i] = std::norm(point.beam_by_wind);
-    for (std::size_t k = 0; k < beam.size(); ++k) {
+    result.boresight_by_wind_square[i] = std::norm(point.boresight_by_wind);
+    for (std::size_t k = 0; k < boresight.size(); ++k) {
       result.sensitivity.at(k)[i] = 1.0 / std::abs(1.0 + point.loop_gain.at(k));
-      beam.at(k)[i] = std::norm(point.beam_by_noise.at(k));
+      boresight.at(k)[i] = std::norm(point.boresight_by_noise.at(k));
       demand.at(k)[i] = std::norm(point.demand_by_noise.at(k));
     }
   }
@@ -147,7 +149,7 @@ RejectionResponse rejection_response(const TrackingProblem& problem,
                        problem.noise.torque_rms};
   for (std::size_t k = 0; k < rms.size(); ++k) {
     const double bandwidth = problem.noise.bandwidth;
-    result.noise_variance += variance(rms.at(k), bandwidth, beam.at(k), result.noise_weight);
+    result.noise_variance += variance(rms.at(k), bandwidth, boresight.at(k), result.noise_weight);
     result.effort_variance += variance(rms.at(k), bandwidth, demand.at(k), result.noise_weight);
   }
   return result;
@@ -177,31 +179,32 @@ double RejectionResponse::peak(std::size_t loop_break) const {
 
 double rejection_lyapunov_rms(const TrackingProblem& problem, const plant::StateSpace& controller) {
   const auto wind = fit_wind_filter(problem);
-  const auto law = demand_only(controller);
-  if (law.sample_time > 0.0) {
-    const control::SampledLoop loop{control::antenna_in_wind(problem.plant, wind),
-                                    plant::renamed(law, {{"valve_demand", "valve_command"}}),
-                                    law.sample_time};
-    return control::sampled_pointing(loop, problem.noise).beam_rms;
+  const auto antenna_form = demand_only(controller);
+  if (antenna_form.sample_time > 0.0) {
+    const control::SampledLoop loop{
+        control::antenna_in_wind(problem.plant, wind),
+        plant::renamed(antenna_form, {{"valve_demand", "valve_command"}}),
+        antenna_form.sample_time};
+    return control::sampled_pointing(loop, problem.noise).boresight_rms;
   }
   std::vector<plant::StateSpace> parts{plant::to_state_space(problem.plant),
                                        plant::to_state_space(wind, "wind_torque"),
                                        delayed(problem.delay)};
   std::vector<std::string> inputs{"white_noise"};
   std::map<std::string, std::string> with_noise;
-  for (const auto& name : law.inputs) {
+  for (const auto& name : antenna_form.inputs) {
     with_noise[name] = name + "_measured";
     inputs.push_back(name + "_noise");
     parts.push_back(plant::static_gain(Eigen::MatrixXd::Ones(1, 2), {name, name + "_noise"},
                                        {name + "_measured"}));
   }
-  parts.push_back(plant::renamed(law, with_noise));
+  parts.push_back(plant::renamed(antenna_form, with_noise));
   const auto loop = plant::connect(parts, inputs, {"beam"});
   Eigen::VectorXd intensity = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(inputs.size()));
-  for (std::size_t i = 0; i < law.inputs.size(); ++i) {
-    const double rms = law.inputs[i] == "tachometer" ? problem.noise.tachometer_rms
-                       : law.inputs[i] == "encoder"  ? problem.noise.encoder_rms
-                                                     : problem.noise.torque_rms;
+  for (std::size_t i = 0; i < antenna_form.inputs.size(); ++i) {
+    const double rms = antenna_form.inputs[i] == "tachometer" ? problem.noise.tachometer_rms
+                       : antenna_form.inputs[i] == "encoder"  ? problem.noise.encoder_rms
+                                                              : problem.noise.torque_rms;
     // A one-sided density over the bandwidth is an intensity of half that.
     intensity[static_cast<Eigen::Index>(i) + 1] = rms * rms / (2.0 * problem.noise.bandwidth);
   }

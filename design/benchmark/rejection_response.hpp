@@ -22,7 +22,7 @@ struct RejectionResponse {
   Eigen::ArrayXd wind_weight;   // sum over the points with it: an integral over Hz in the band
   Eigen::ArrayXd noise_weight;  // the same over the sensors' noise: to its bandwidth, or to the
                                 // Nyquist frequency of a sampled controller
-  Eigen::ArrayXd beam_by_wind_square;
+  Eigen::ArrayXd boresight_by_wind_square;
   std::array<Eigen::ArrayXd, 3> sensitivity;  // |S|, NaN where there is no such loop
   double noise_variance = 0.0;                // rad^2 of motor
   double effort_variance = 0.0;               // (rad/s)^2

@@ -14,7 +14,7 @@
 namespace boresight::design {
 namespace {
 
-using control::ControlLaw;
+using control::Controller;
 using control::LoopPath;
 
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
@@ -25,9 +25,8 @@ constexpr double largest_detuning = 64.0;
 
 void check(const std::vector<EnsembleMember>& members, const CommissioningOptions& options) {
   if (members.size() < 3) {
-    throw InvalidInput(
-        fmt::format("plan_commissioning: expected at least 3 ensemble members, found {}",
-                    members.size()));
+    throw InvalidInput(fmt::format(
+        "plan_commissioning: expected at least 3 ensemble members, found {}", members.size()));
   }
   const bool in_order = options.largest_step > 1.0 && options.largest_step <= 10.0 &&
                         options.sensitivity_limit > 1.0 &&
@@ -51,18 +50,18 @@ void check(const std::vector<EnsembleMember>& members, const CommissioningOption
 }
 
 // The gain by which a stage's loop is raised as a whole.
-std::size_t loop_gain_index(const StageLaw& stage) {
+std::size_t loop_gain_index(const StageController& stage) {
   const LoopPath path = stage.position_open ? LoopPath::rate : LoopPath::position;
   std::size_t first = 0;
-  for (const auto& block : stage.law.structure.blocks()) {
+  for (const auto& block : stage.controller.structure.blocks()) {
     if (block.path == path && block.kind == control::BlockKind::gain) return first;
     first += block.gains.size();
   }
   return 0;
 }
 
-StageLaw raised(StageLaw stage, double factor) {
-  stage.law.gains[loop_gain_index(stage)] *= factor;
+StageController raised(StageController stage, double factor) {
+  stage.controller.gains[loop_gain_index(stage)] *= factor;
   return stage;
 }
 
@@ -82,25 +81,25 @@ class Plants {
   }
 
   // The largest over the plants, and whose.
-  double worst_peak(const StageLaw& stage, std::size_t& worst) {
+  double worst_peak(const StageController& stage, std::size_t& worst) {
     std::vector<double> peaks(observers_.size());
     each([&](std::size_t i) { peaks[i] = observers_[i].peak(stage); });
     const auto largest = std::ranges::max_element(peaks);
     worst = static_cast<std::size_t>(largest - peaks.begin());
     return *largest;
   }
-  double worst_peak(const StageLaw& stage) {
+  double worst_peak(const StageController& stage) {
     std::size_t worst = 0;
     return worst_peak(stage, worst);
   }
 
-  CommissioningStage look_at(StageKind kind, const StageLaw& law) {
+  CommissioningStage look_at(StageKind kind, const StageController& controller) {
     if (options_.stop && options_.stop()) throw Interrupted("interrupted by the user");
     std::vector<StageObservation> seen(observers_.size());
-    each([&](std::size_t i) { seen[i] = observers_[i].observe(law); });
+    each([&](std::size_t i) { seen[i] = observers_[i].observe(controller); });
     CommissioningStage stage;
     stage.kind = kind;
-    stage.law = law;
+    stage.controller = controller;
     expect(seen, stage.expected);
     limit(stage);
     return stage;
@@ -129,22 +128,22 @@ class Plants {
     // Of the peak, 1 and the overshoot: logarithms of overshoots near 0 would scatter wildly.
     expected.overshoot = band(seen, [](const Seen& s) { return 1.0 + s.overshoot; });
     for (auto* end :
-         {&expected.overshoot.nominal, &expected.overshoot.least, &expected.overshoot.largest,
+         {&expected.overshoot.nominal, &expected.overshoot.minimum, &expected.overshoot.largest,
           &expected.overshoot.lower, &expected.overshoot.upper}) {
       *end = *end < 1.0 ? 0.0 : *end - 1.0;
     }
     expected.settling_time = band(seen, [](const Seen& s) { return s.settling_time; });
     expected.largest_demand = band(seen, [](const Seen& s) { return s.largest_demand; });
     expected.largest_torque = band(seen, [](const Seen& s) { return s.largest_torque; });
-    expected.still_encoder = band(seen, [](const Seen& s) { return s.still.encoder_error; });
-    expected.still_tachometer = band(seen, [](const Seen& s) { return s.still.tachometer; });
-    expected.still_torque = band(seen, [](const Seen& s) { return s.still.torque; });
-    expected.still_valve = band(seen, [](const Seen& s) { return s.still.valve_command; });
+    expected.calm_encoder = band(seen, [](const Seen& s) { return s.calm.encoder_error; });
+    expected.calm_tachometer = band(seen, [](const Seen& s) { return s.calm.tachometer; });
+    expected.calm_torque = band(seen, [](const Seen& s) { return s.calm.torque; });
+    expected.calm_valve = band(seen, [](const Seen& s) { return s.calm.valve_command; });
     expected.windy_encoder = band(seen, [](const Seen& s) { return s.windy.encoder_error; });
     expected.windy_tachometer = band(seen, [](const Seen& s) { return s.windy.tachometer; });
     expected.windy_torque = band(seen, [](const Seen& s) { return s.windy.torque; });
     expected.windy_valve = band(seen, [](const Seen& s) { return s.windy.valve_command; });
-    expected.beam_rms = band(seen, [](const Seen& s) { return s.beam_rms; });
+    expected.boresight_rms = band(seen, [](const Seen& s) { return s.boresight_rms; });
     expected.move_error = band(seen, [](const Seen& s) { return s.move_error; });
   }
 
@@ -157,31 +156,32 @@ class Plants {
   void limit(CommissioningStage& stage) {
     AbortLimits& abort = stage.abort;
     std::size_t worst = 0;
-    const double peak = worst_peak(stage.law, worst);
+    const double peak = worst_peak(stage.controller, worst);
     abort.worst_plant = names_[worst];
     abort.overshoot = stage.expected.overshoot.upper + options_.overshoot_allowance;
-    abort.still_valve_rms = stage.expected.still_valve.upper * options_.rms_allowance;
-    abort.still_encoder_rms = stage.expected.still_encoder.upper * options_.rms_allowance;
+    abort.calm_valve_rms = stage.expected.calm_valve.upper * options_.rms_allowance;
+    abort.calm_encoder_rms = stage.expected.calm_encoder.upper * options_.rms_allowance;
     abort.gain_reserve = peak < options_.abort_peak ? infinity : 1.0;
     if (!(peak < options_.abort_peak) ||
-        observers_[worst].peak(raised(stage.law, highest_raise)) < options_.abort_peak) {
+        observers_[worst].peak(raised(stage.controller, highest_raise)) < options_.abort_peak) {
       return;
     }
     double low = 1.0;
     double high = highest_raise;
     for (int k = 0; k < 30 && high - low > 1e-4; ++k) {
       const double middle = std::sqrt(low * high);
-      (observers_[worst].peak(raised(stage.law, middle)) < options_.abort_peak ? low : high) =
+      (observers_[worst].peak(raised(stage.controller, middle)) < options_.abort_peak ? low
+                                                                                      : high) =
           middle;
     }
     abort.gain_reserve = low;
-    const auto there = observers_[worst].observe(raised(stage.law, low));
+    const auto there = observers_[worst].observe(raised(stage.controller, low));
     abort.overshoot = earlier(stage.expected.overshoot, abort.overshoot, there.overshoot);
-    abort.still_valve_rms =
-        earlier(stage.expected.still_valve, abort.still_valve_rms, there.still.valve_command);
-    if (!stage.law.position_open) {
-      abort.still_encoder_rms =
-          earlier(stage.expected.still_encoder, abort.still_encoder_rms, there.still.encoder_error);
+    abort.calm_valve_rms =
+        earlier(stage.expected.calm_valve, abort.calm_valve_rms, there.calm.valve_command);
+    if (!stage.controller.position_open) {
+      abort.calm_encoder_rms =
+          earlier(stage.expected.calm_encoder, abort.calm_encoder_rms, there.calm.encoder_error);
     }
   }
 
@@ -203,14 +203,14 @@ bool all_stable(const CommissioningStage& stage) {
 }
 
 // The gains the plan starts from where none can be started from.
-ControlLaw assumed_start(Plants& plants, const ControlLaw& target, double limit,
+Controller assumed_start(Plants& plants, const Controller& target, double limit,
                          CommissioningPlan& plan) {
-  const ControlLaw plain = without_torque_paths(target);
+  const Controller plain = without_torque_paths(target);
   for (double factor = 2.0; factor <= largest_detuning; factor *= 2.0) {
     // A law whose position loop does the rate loop's work must keep its rate loop: slower, its
     // integral would reach into the position loop.
     for (const double rate_factor : {factor, 1.0}) {
-      ControlLaw start = detuned(plain, rate_factor, factor);
+      Controller start = detuned(plain, rate_factor, factor);
       if (plants.worst_peak({start, true, false}) <= limit &&
           plants.worst_peak({start, false, false}) <= limit) {
         plan.detuning = factor;
@@ -220,8 +220,8 @@ ControlLaw assumed_start(Plants& plants, const ControlLaw& target, double limit,
     }
   }
   throw InfeasibleRequirement(fmt::format(
-      "the gains of the antenna as found are not known, and the law chosen, "
-      "without pressure feedback, has no peaks of S below {:g} on every plant even with its gains "
+      "the gains of the antenna as found are not known, and the controller chosen, "
+      "without pressure feedback, has no Ms below {:g} on every plant even with its gains "
       "divided by {:g}: give the gains found",
       limit, largest_detuning));
 }
@@ -245,8 +245,8 @@ PlantBand plant_band(double nominal, const std::vector<double>& values, double c
   if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
     return {nominal, no_number, no_number, no_number, no_number};
   }
-  const auto [least, largest] = std::ranges::minmax(values);
-  const bool logarithmic = least > 0.0;
+  const auto [minimum, largest] = std::ranges::minmax(values);
+  const bool logarithmic = minimum > 0.0;
   const auto count = static_cast<double>(values.size());
   double mean = 0.0;
   for (const double value : values) mean += (logarithmic ? std::log(value) : value) / count;
@@ -262,7 +262,7 @@ PlantBand plant_band(double nominal, const std::vector<double>& values, double c
     lower = std::exp(lower);
     upper = std::exp(upper);
   }
-  return {nominal, least, largest, std::clamp(lower, 0.0, std::max(least, 0.0)),
+  return {nominal, minimum, largest, std::clamp(lower, 0.0, std::max(minimum, 0.0)),
           std::max(upper, largest)};
 }
 
@@ -277,8 +277,8 @@ double CommissioningPlan::largest_peak() const {
 
 CommissioningPlan plan_commissioning(const TrackingProblem& problem,
                                      const std::vector<EnsembleMember>& members,
-                                     const std::optional<control::ControlLaw>& found,
-                                     const control::ControlLaw& target, const CommandedMove& move,
+                                     const std::optional<control::Controller>& found,
+                                     const control::Controller& target, const CommandedMove& move,
                                      const CommissioningOptions& options) {
   check(members, options);
   control::validate(target);
@@ -288,38 +288,39 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
       std::max(plants.worst_peak({target, true, false}), plants.worst_peak({target, false, false}));
   if (!std::isfinite(own)) {
     throw InfeasibleRequirement(
-        "the law chosen is unstable on a plant that may be the true one: "
-        "choose a law that is tuned robustly");
+        "the controller chosen is unstable on an ensemble member: "
+        "choose a controller that is tuned robustly");
   }
   if (own > options.sensitivity_limit) {
     plan.remarks.push_back(
-        fmt::format("The law chosen has itself a peak of S of {:.2f} on a plant, above the {:g} "
+        fmt::format("The controller chosen has itself an Ms of {:.2f} on a plant, above the {:g} "
                     "meant to be kept "
                     "on the way: its own is kept instead.",
                     own, options.sensitivity_limit));
   }
   const double limit = std::max(options.sensitivity_limit, own * (1.0 + 1e-9));
 
-  std::optional<ControlLaw> start;
+  std::optional<Controller> start;
   if (found) {
     control::validate(*found);
     plan.stages.push_back(plants.look_at(StageKind::as_found, {*found, false, false}));
-    start = law_within(*found, target);
+    start = controller_within(*found, target);
     if (!start) {
       plan.remarks.emplace_back(
-          "The law found has parts that the law chosen has not: no path of gains leads from one to "
-          "the other. The plan starts afresh, from gains of the law chosen.");
+          "The controller found has parts that the controller chosen has not: no path of gains "
+          "leads from one to "
+          "the other. The plan starts afresh, from gains of the controller chosen.");
     } else if (plants.worst_peak({*start, true, false}) > limit) {
-      plan.remarks.push_back(fmt::format(
-          "The rate loop as found has a peak of S above {:g} on a plant that may be the true one. "
-          "The plan starts afresh, from gains of the law chosen.",
-          limit));
+      plan.remarks.push_back(
+          fmt::format("The rate loop as found has an Ms above {:g} on an ensemble member. "
+                      "The plan starts afresh, from gains of the controller chosen.",
+                      limit));
       start.reset();
     }
   }
   if (!start) start = assumed_start(plants, target, limit, plan);
 
-  const auto allowed = [&](const StageLaw& stage) {
+  const auto allowed = [&](const StageController& stage) {
     if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
     return plants.worst_peak(stage) <= limit;
   };
@@ -332,12 +333,12 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
   }
   if (!path) {
     throw InfeasibleRequirement(
-        fmt::format("no path of gains with peaks of S below {:g} on every plant was found, "
+        fmt::format("no path of gains with Ms below {:g} on every plant was found, "
                     "with steps down to a factor of {:.3g}: {}",
                     limit, plan.largest_step, why_not));
   }
   for (const auto& stage : *path) {
-    plan.stages.push_back(plants.look_at(stage.kind, stage.law));
+    plan.stages.push_back(plants.look_at(stage.kind, stage.controller));
     if (options.progress) options.progress(plan.stages.size(), path->size());
     if (!all_stable(plan.stages.back())) {
       throw NumericalFailure(

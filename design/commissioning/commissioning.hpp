@@ -44,7 +44,7 @@ struct CommissioningOptions {
 /// A quantity over the plant ensemble.
 struct PlantBand {
   double nominal = 0.0;  // on the problem's own
-  double least = 0.0, largest = 0.0;
+  double minimum = 0.0, largest = 0.0;
   /// Prediction interval for one more plant at the requested confidence: Student's, from the
   /// plants' mean and scatter under a normal distribution, of the logarithms where all are
   /// positive. It contains the plants' own least and largest, and does not go below 0.
@@ -56,9 +56,9 @@ struct PlantBand {
 /// its loop gain raised until Ms reaches the abort peak. It applies where it exceeds the band by
 /// half of the allowance or more.
 struct AbortLimits {
-  double overshoot = 0.0;          // fraction of the step
-  double still_valve_rms = 0.0;    // rad/s, in still air
-  double still_encoder_rms = 0.0;  // rad of motor; NaN with the position loop open
+  double overshoot = 0.0;         // fraction of the step
+  double calm_valve_rms = 0.0;    // rad/s, in still air
+  double calm_encoder_rms = 0.0;  // rad of motor; NaN with the position loop open
   /// Factor on the loop gain (kr, or kp once the position loop is closed) at which the worst plant
   /// reaches the abort peak; infinity if a factor of 8 does not.
   double gain_reserve = 0.0;
@@ -69,9 +69,9 @@ struct AbortLimits {
 struct StageExpectation {
   std::size_t plants = 0, stable = 0;
   PlantBand peak, crossover, rise_time, overshoot, settling_time, largest_demand, largest_torque;
-  PlantBand still_encoder, still_tachometer, still_torque, still_valve;
+  PlantBand calm_encoder, calm_tachometer, calm_torque, calm_valve;
   PlantBand windy_encoder, windy_tachometer, windy_torque, windy_valve;
-  PlantBand beam_rms, move_error;
+  PlantBand boresight_rms, move_error;
 
   /// True if every plant is stable in this stage; only the present gains may fail this.
   bool all_stable() const { return stable == plants; }
@@ -80,7 +80,7 @@ struct StageExpectation {
 struct CommissioningStage {
   StageKind kind = StageKind::as_found;
   int step = 0, steps = 0;  // index among the stages of its kind, from 1; their number
-  StageLaw law;
+  StageController controller;
   StageExpectation expected;
   AbortLimits abort;
 };
@@ -118,8 +118,8 @@ struct CommissioningPlan {
 /// with steps down to the fourth root of the largest, stating where it ended.
 CommissioningPlan plan_commissioning(const TrackingProblem& problem,
                                      const std::vector<EnsembleMember>& members,
-                                     const std::optional<control::ControlLaw>& found,
-                                     const control::ControlLaw& target, const CommandedMove& move,
+                                     const std::optional<control::Controller>& found,
+                                     const control::Controller& target, const CommandedMove& move,
                                      const CommissioningOptions& options = {});
 
 /// The band of a quantity's values over the plants; NaN if a value is not finite.

@@ -80,8 +80,8 @@ StageObserver::StageObserver(const TrackingProblem& problem, const plant::Antenn
   wind_spectrum_ = motor_wind_spectrum(problem_, frequency);
 }
 
-double StageObserver::peak(const StageLaw& stage) {
-  const auto evaluation = evaluator_.evaluate(stage.law, false);
+double StageObserver::peak(const StageController& stage) {
+  const auto evaluation = evaluator_.evaluate(stage.controller, false);
   if (evaluation.unstable_rate_loop > 0) return infinity;
   double largest = evaluation.highest_peak(LoopBreak::rate_loop_alone);
   if (stage.position_open) return largest;
@@ -92,14 +92,14 @@ double StageObserver::peak(const StageLaw& stage) {
   return largest;
 }
 
-double StageObserver::crossover(const StageLaw& stage) const {
+double StageObserver::crossover(const StageController& stage) const {
   const auto loop_break =
       stage.position_open ? LoopBreak::rate_loop_alone : LoopBreak::position_loop;
   double before = 0.0;
   for (Eigen::Index i = 0; i < response_.frequency.size(); ++i) {
     const double gain =
         std::log(std::abs(control::loop_gain(plant::point(response_, i), response_.frequency[i],
-                                             stage.law, problem_.delay, loop_break)));
+                                             stage.controller, problem_.delay, loop_break)));
     if (i > 0 && before >= 0.0 && gain < 0.0) {
       const double from = std::log(response_.frequency[i - 1]);
       const double to = std::log(response_.frequency[i]);
@@ -110,11 +110,11 @@ double StageObserver::crossover(const StageLaw& stage) const {
   return no_number;
 }
 
-void StageObserver::observe_step(const StageLaw& stage, StageObservation& seen) const {
+void StageObserver::observe_step(const StageController& stage, StageObservation& seen) const {
   const plant::StateSpace loop =
       stage.position_open
-          ? control::rate_command_loop(problem_.plant, stage.law, problem_.delay)
-          : control::position_command_loop(problem_.plant, stage.law, problem_.delay);
+          ? control::rate_command_loop(problem_.plant, stage.controller, problem_.delay)
+          : control::position_command_loop(problem_.plant, stage.controller, problem_.delay);
   const double step = 60.0 / (seen.crossover * static_cast<double>(samples_watched));
   Eigen::MatrixXd input =
       Eigen::MatrixXd::Zero(samples_watched, static_cast<Eigen::Index>(loop.inputs.size()));
@@ -129,12 +129,12 @@ void StageObserver::observe_step(const StageLaw& stage, StageObservation& seen) 
   seen.largest_demand = output.col(2).cwiseAbs().maxCoeff();
 }
 
-void StageObserver::observe_move(const StageLaw& stage, StageObservation& seen) const {
+void StageObserver::observe_move(const StageController& stage, StageObservation& seen) const {
   const plant::StateSpace loop =
-      control::position_command_loop(problem_.plant, stage.law, problem_.delay);
-  const auto forward = stage.feedforward
-                           ? control::plant_feedforward(problem_.plant, stage.law, problem_.delay)
-                           : control::Feedforward{};
+      control::position_command_loop(problem_.plant, stage.controller, problem_.delay);
+  const auto forward = stage.feedforward ? control::plant_feedforward(
+                                               problem_.plant, stage.controller, problem_.delay)
+                                         : control::Feedforward{};
   // Speeding up, as long at the rate, slowing down, and time for what is left to show.
   const double ramp = move_.rate / move_.acceleration;
   const double wait = 30.0 / seen.crossover;
@@ -161,7 +161,7 @@ void StageObserver::observe_move(const StageLaw& stage, StageObservation& seen) 
   seen.move_error = (input.col(0) - output.col(0)).cwiseAbs().maxCoeff();
 }
 
-void StageObserver::observe_recorder(const StageLaw& stage, StageObservation& seen) const {
+void StageObserver::observe_recorder(const StageController& stage, StageObservation& seen) const {
   const auto& noise = problem_.noise;
   const Eigen::ArrayXd& frequency = response_.frequency;
   const Eigen::ArrayXd noise_weight = weights(frequency, noise.bandwidth);
@@ -169,7 +169,7 @@ void StageObserver::observe_recorder(const StageLaw& stage, StageObservation& se
                                         std::pow(noise.tachometer_rms, 2) / noise.bandwidth,
                                         std::pow(noise.torque_rms, 2) / noise.bandwidth};
   // Encoder error, tachometer, torque, valve command.
-  std::array<double, 4> still{};
+  std::array<double, 4> calm{};
   std::array<double, 4> windy{};
   for (Eigen::Index i = 0; i < frequency.size(); ++i) {
     const double w = frequency[i];
@@ -178,26 +178,26 @@ void StageObserver::observe_recorder(const StageLaw& stage, StageObservation& se
     for (auto* one : {&plant.tachometer_command, &plant.torque_command, &plant.encoder_command}) {
       *one *= late;
     }
-    auto law = control::compensator_response(stage.law, w);
-    if (stage.position_open) law.position = 0.0;
+    auto controller = control::compensator_response(stage.controller, w);
+    if (stage.position_open) controller.position = 0.0;
     // u = R (r - tachometer) - Q torque, r = -P (encoder - C torque).
-    const std::complex<double> outer = law.rate * law.position;
-    const std::complex<double> torque_path = law.pressure - outer * law.compliance;
-    const std::complex<double> loop = 1.0 + law.rate * plant.tachometer_command +
+    const std::complex<double> outer = controller.rate * controller.position;
+    const std::complex<double> torque_path = controller.pressure - outer * controller.compliance;
+    const std::complex<double> loop = 1.0 + controller.rate * plant.tachometer_command +
                                       torque_path * plant.torque_command +
                                       outer * plant.encoder_command;
-    const std::array<std::complex<double>, 3> to_valve{-outer / loop, -law.rate / loop,
+    const std::array<std::complex<double>, 3> to_valve{-outer / loop, -controller.rate / loop,
                                                        -torque_path / loop};
     for (std::size_t source = 0; source < 3; ++source) {
       const auto u = to_valve[source];
       const double power = densities[source] * noise_weight[i];
-      still[0] += power * std::norm(plant.encoder_command * u + (source == 0 ? 1.0 : 0.0));
-      still[1] += power * std::norm(plant.tachometer_command * u + (source == 1 ? 1.0 : 0.0));
-      still[2] += power * std::norm(plant.torque_command * u + (source == 2 ? 1.0 : 0.0));
-      still[3] += power * std::norm(u);
+      calm[0] += power * std::norm(plant.encoder_command * u + (source == 0 ? 1.0 : 0.0));
+      calm[1] += power * std::norm(plant.tachometer_command * u + (source == 1 ? 1.0 : 0.0));
+      calm[2] += power * std::norm(plant.torque_command * u + (source == 2 ? 1.0 : 0.0));
+      calm[3] += power * std::norm(u);
     }
     const std::complex<double> by_wind =
-        -(law.rate * plant.tachometer_wind + torque_path * plant.torque_wind +
+        -(controller.rate * plant.tachometer_wind + torque_path * plant.torque_wind +
           outer * plant.encoder_wind) /
         loop;
     const double power = wind_spectrum_[i] * noise_weight[i];
@@ -210,16 +210,16 @@ void StageObserver::observe_recorder(const StageLaw& stage, StageObservation& se
     return RecordedRms{std::sqrt(power[0]), std::sqrt(power[1]), std::sqrt(power[2]),
                        std::sqrt(power[3])};
   };
-  seen.still = rms(still);
-  for (std::size_t k = 0; k < windy.size(); ++k) windy[k] += still[k];
+  seen.calm = rms(calm);
+  for (std::size_t k = 0; k < windy.size(); ++k) windy[k] += calm[k];
   seen.windy = rms(windy);
-  if (stage.position_open) seen.still.encoder_error = seen.windy.encoder_error = no_number;
+  if (stage.position_open) seen.calm.encoder_error = seen.windy.encoder_error = no_number;
 }
 
-StageObservation StageObserver::observe(const StageLaw& stage) {
+StageObservation StageObserver::observe(const StageController& stage) {
   StageObservation seen;
   const auto verdict =
-      control::stability(problem_.plant, stage.law, problem_.delay, response_.frequency);
+      control::stability(problem_.plant, stage.controller, problem_.delay, response_.frequency);
   seen.abscissa = stage.position_open
                       ? verdict.rate_loop_abscissa
                       : std::max(verdict.rate_loop_abscissa, verdict.closed_loop_abscissa);
@@ -230,17 +230,18 @@ StageObservation StageObserver::observe(const StageLaw& stage) {
     seen.stable = seen.abscissa < 0.0 && std::isfinite(seen.peak);
   }
   seen.crossover = seen.stable ? crossover(stage) : no_number;
-  seen.beam_rms = seen.move_error = no_number;
+  seen.boresight_rms = seen.move_error = no_number;
   if (!seen.stable || !(seen.crossover > 0.0)) {
     seen.crossover = seen.rise_time = seen.overshoot = seen.settling_time = no_number;
     seen.largest_demand = seen.largest_torque = no_number;
-    seen.still = seen.windy = {no_number, no_number, no_number, no_number};
+    seen.calm = seen.windy = {no_number, no_number, no_number, no_number};
     return seen;
   }
   observe_step(stage, seen);
   observe_recorder(stage, seen);
   if (!stage.position_open) {
-    seen.beam_rms = std::sqrt(evaluator_.evaluate(stage.law, false).beam_variance());
+    seen.boresight_rms =
+        std::sqrt(evaluator_.evaluate(stage.controller, false).boresight_variance());
     observe_move(stage, seen);
   }
   return seen;

@@ -2,14 +2,14 @@
 
 #include <Eigen/Core>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
 namespace boresight::design {
 
 /// A controller as it acts in one stage of commissioning.
-struct StageLaw {
-  control::ControlLaw law;
+struct StageController {
+  control::Controller controller;
   bool position_open = false;  // external rate command; position and compliance paths inactive
   bool feedforward = false;    // control::plant_feedforward, with the position loop closed
 };
@@ -35,9 +35,9 @@ struct StageObservation {
   double settling_time = 0.0;   // s, into 5 %; infinite if not within the time simulated
   double largest_demand = 0.0;  // rad/s of valve demand per unit of step
   double largest_torque = 0.0;  // N m per unit of step
-  RecordedRms still;            // in still air
+  RecordedRms calm;             // in still air
   RecordedRms windy;            // in the problem's wind, and noise
-  double beam_rms = 0.0;        // rad, in the wind; NaN with the position loop open
+  double boresight_rms = 0.0;   // rad, in the wind; NaN with the position loop open
   double move_error = 0.0;  // rad, largest encoder error of the move; NaN with position loop open
 };
 
@@ -56,16 +56,16 @@ class StageObserver {
 
   /// Ms over the breaks that are closed, infinity for an unstable loop, by Nyquist encirclements
   /// along the frequencies. Fast. @throws InvalidInput as control::validate.
-  double peak(const StageLaw& stage);
+  double peak(const StageController& stage);
   /// All values, stability by eigenvalues. Time responses are exact at their samples; the simulated
   /// time, 60 over the crossover, has 6000 samples. @throws as peak.
-  StageObservation observe(const StageLaw& stage);
+  StageObservation observe(const StageController& stage);
 
  private:
-  void observe_step(const StageLaw& stage, StageObservation& seen) const;
-  void observe_move(const StageLaw& stage, StageObservation& seen) const;
-  void observe_recorder(const StageLaw& stage, StageObservation& seen) const;
-  double crossover(const StageLaw& stage) const;
+  void observe_step(const StageController& stage, StageObservation& seen) const;
+  void observe_move(const StageController& stage, StageObservation& seen) const;
+  void observe_recorder(const StageController& stage, StageObservation& seen) const;
+  double crossover(const StageController& stage) const;
 
   TrackingProblem problem_;
   CommandedMove move_;

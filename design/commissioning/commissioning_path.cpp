@@ -10,19 +10,19 @@ namespace boresight::design {
 namespace {
 
 using control::BlockKind;
-using control::ControlLaw;
+using control::Controller;
 using control::LoopPath;
 using control::LoopStructure;
 
 // A path that comes in begins at this share of its gain.
-constexpr double first_share = 0.25;
+constexpr double first_fraction = 0.25;
 
 using GainMap = std::map<std::string, double>;
 
-GainMap gains_of(const ControlLaw& law) {
+GainMap gains_of(const Controller& controller) {
   GainMap gains;
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
-    gains[law.structure.gains()[i].symbol] = law.gains[i];
+  for (std::size_t i = 0; i < controller.gains.size(); ++i) {
+    gains[controller.structure.gains()[i].symbol] = controller.gains[i];
   }
   return gains;
 }
@@ -38,10 +38,10 @@ LoopStructure reduced(const LoopStructure& structure, bool pressure, bool compli
   return {structure.name(), std::move(blocks)};
 }
 
-ControlLaw law_of(const LoopStructure& structure, const GainMap& gains) {
-  ControlLaw law{structure, {}};
-  for (const auto& gain : structure.gains()) law.gains.push_back(gains.at(gain.symbol));
-  return law;
+Controller controller_of(const LoopStructure& structure, const GainMap& gains) {
+  Controller controller{structure, {}};
+  for (const auto& gain : structure.gains()) controller.gains.push_back(gains.at(gain.symbol));
+  return controller;
 }
 
 // What a block that is not there would have in the target's structure.
@@ -78,10 +78,10 @@ struct Group {
     for (const auto& symbol : symbols) {
       const double start = from.at(symbol);
       const double end = to.at(symbol);
-      const double share = static_cast<double>(step) / static_cast<double>(std::max(steps, 1));
+      const double fraction = static_cast<double>(step) / static_cast<double>(std::max(steps, 1));
       gains[symbol] = step == steps ? end
                       : step == 0   ? start
-                                    : start * std::exp(share * std::log(end / start));
+                                    : start * std::exp(fraction * std::log(end / start));
     }
   }
 };
@@ -108,8 +108,8 @@ Group group_of(const LoopStructure& structure, LoopPath path, const GainMap& fro
 // Walks over the steps; keeps the gains as they are.
 class Walk {
  public:
-  Walk(const ControlLaw& start, const ControlLaw& target, double largest_step,
-       const std::function<bool(const StageLaw&)>& allowed)
+  Walk(const Controller& start, const Controller& target, double largest_step,
+       const std::function<bool(const StageController&)>& allowed)
       : target_(target),
         largest_step_(largest_step),
         allowed_(allowed),
@@ -124,15 +124,15 @@ class Walk {
     if (!walk_rate_and_pressure(why_not) || !walk_position(why_not) || !walk_compliance(why_not)) {
       return std::nullopt;
     }
-    add(StageKind::feedforward, {law(), false, true});
+    add(StageKind::feedforward, {controller(), false, true});
     return stages_;
   }
 
  private:
-  ControlLaw law() const {
-    return law_of(reduced(target_.structure, pressure_, compliance_), gains_);
+  Controller controller() const {
+    return controller_of(reduced(target_.structure, pressure_, compliance_), gains_);
   }
-  void add(StageKind kind, const StageLaw& stage) { stages_.push_back({kind, stage}); }
+  void add(StageKind kind, const StageController& stage) { stages_.push_back({kind, stage}); }
 
   // Takes a step if every plant allows what comes of it; else nothing has changed.
   bool tries(StageKind kind, bool position_open, const std::function<void()>& step) {
@@ -140,7 +140,7 @@ class Walk {
     const bool pressure = pressure_;
     const bool compliance = compliance_;
     step();
-    const StageLaw stage{law(), position_open, false};
+    const StageController stage{controller(), position_open, false};
     if (allowed_(stage)) {
       add(kind, stage);
       return true;
@@ -159,7 +159,7 @@ class Walk {
         if (block.path != path) continue;
         for (const auto& gain : block.gains) from[gain.symbol] = to_.at(gain.symbol);
         if (block.kind == BlockKind::gain) {
-          from[block.gains[0].symbol] = first_share * to_.at(block.gains[0].symbol);
+          from[block.gains[0].symbol] = first_fraction * to_.at(block.gains[0].symbol);
         }
       }
     }
@@ -173,7 +173,7 @@ class Walk {
     Group rate = group_of(target_.structure, LoopPath::rate, gains_, to_, largest_step_);
     Group pressure = entering(LoopPath::pressure, pressure_);
     if (!target_.structure.has(LoopPath::pressure)) pressure.at = pressure.steps = 0;
-    add(StageKind::rate_loop, {law(), true, false});
+    add(StageKind::rate_loop, {controller(), true, false});
     const auto raise_rate = [&] { rate.write(rate.at + 1, gains_); };
     const auto raise_pressure = [&] {
       pressure_ = true;
@@ -253,9 +253,9 @@ class Walk {
     return true;
   }
 
-  const ControlLaw& target_;
+  const Controller& target_;
   double largest_step_;
-  const std::function<bool(const StageLaw&)>& allowed_;
+  const std::function<bool(const StageController&)>& allowed_;
   GainMap to_, gains_;
   bool pressure_ = false, compliance_ = false;
   std::vector<PathStage> stages_;
@@ -263,7 +263,7 @@ class Walk {
 
 }  // namespace
 
-std::optional<ControlLaw> law_within(const ControlLaw& found, const ControlLaw& target) {
+std::optional<Controller> controller_within(const Controller& found, const Controller& target) {
   const GainMap own = gains_of(found);
   const GainMap wanted = gains_of(target);
   for (const auto& [symbol, value] : own) {
@@ -274,17 +274,17 @@ std::optional<ControlLaw> law_within(const ControlLaw& found, const ControlLaw& 
   GainMap gains;
   for (const auto& block : structure.blocks()) set_idle(block, wanted, gains);
   for (const auto& [symbol, value] : own) gains[symbol] = value;
-  return law_of(structure, gains);
+  return controller_of(structure, gains);
 }
 
-ControlLaw without_torque_paths(const ControlLaw& law) {
-  return law_of(reduced(law.structure, false, false), gains_of(law));
+Controller without_torque_paths(const Controller& controller) {
+  return controller_of(reduced(controller.structure, false, false), gains_of(controller));
 }
 
-ControlLaw detuned(const ControlLaw& law, double rate_factor, double position_factor) {
-  ControlLaw result = law;
+Controller detuned(const Controller& controller, double rate_factor, double position_factor) {
+  Controller result = controller;
   std::size_t first = 0;
-  for (const auto& block : law.structure.blocks()) {
+  for (const auto& block : controller.structure.blocks()) {
     const bool gain = block.kind == BlockKind::gain;
     if (block.path == LoopPath::rate && gain) result.gains[first] /= rate_factor;
     if (block.path == LoopPath::position && (gain || block.kind == BlockKind::integral)) {
@@ -296,8 +296,8 @@ ControlLaw detuned(const ControlLaw& law, double rate_factor, double position_fa
 }
 
 std::optional<std::vector<PathStage>> commissioning_path(
-    const ControlLaw& start, const ControlLaw& target, double largest_step,
-    const std::function<bool(const StageLaw&)>& allowed, std::string& why_not) {
+    const Controller& start, const Controller& target, double largest_step,
+    const std::function<bool(const StageController&)>& allowed, std::string& why_not) {
   return Walk(start, target, largest_step, allowed).run(why_not);
 }
 

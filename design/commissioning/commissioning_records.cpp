@@ -12,9 +12,9 @@
 namespace boresight::design {
 namespace {
 
-constexpr Eigen::Index least_samples = 64;
+constexpr Eigen::Index min_samples = 64;
 // A segment is at most this part of the shorter record: enough averages for an interval.
-constexpr double segment_share = 1.0 / 8.0;
+constexpr double segment_fraction = 1.0 / 8.0;
 constexpr double bins_of_a_band = 3.0;
 // Squared correlation of the spectrum at bins 0, 1 and 2 apart under Hann's window: (2/3)^2,
 // (1/6)^2.
@@ -22,11 +22,11 @@ constexpr std::array window_correlation{1.0, 4.0 / 9.0, 1.0 / 36.0};
 
 void check(const RecordedChannel& channel, const char* which) {
   const bool sampled = channel.sample_time > 0.0 && std::isfinite(channel.sample_time);
-  if (channel.values.size() < least_samples || !sampled) {
+  if (channel.values.size() < min_samples || !sampled) {
     throw InvalidInput(fmt::format(
         "compare_records: expected at least {} samples at a positive sample time, found {} at {} s "
         "in the record {}",
-        least_samples, channel.values.size(), channel.sample_time, which));
+        min_samples, channel.values.size(), channel.sample_time, which));
   }
   if (!channel.values.allFinite()) {
     throw InvalidInput(fmt::format(
@@ -99,12 +99,12 @@ BandComparison compare_band(const identification::SpectralMatrix& before,
       from,          to, std::sqrt(first.mean_square), std::sqrt(second.mean_square), first.freedom,
       second.freedom};
   const double ratio = second.mean_square / first.mean_square;
-  const double chance = 0.5 * (1.0 - confidence);
+  const double probability = 0.5 * (1.0 - confidence);
   band.ratio = std::sqrt(ratio);
   band.lower = std::sqrt(
-      ratio / numerics::f_quantile(1.0 - chance, band.freedom_after, band.freedom_before));
+      ratio / numerics::f_quantile(1.0 - probability, band.freedom_after, band.freedom_before));
   band.upper =
-      std::sqrt(ratio / numerics::f_quantile(chance, band.freedom_after, band.freedom_before));
+      std::sqrt(ratio / numerics::f_quantile(probability, band.freedom_after, band.freedom_before));
   band.change = band.upper < 1.0 ? Change::better : band.lower > 1.0 ? Change::worse : Change::none;
   return band;
 }
@@ -137,7 +137,7 @@ RecordComparison compare_records(const RecordedChannel& before, const RecordedCh
   const auto duration = [](const RecordedChannel& channel) {
     return channel.sample_time * static_cast<double>(channel.values.size());
   };
-  const double segment = segment_share * std::min(duration(before), duration(after));
+  const double segment = segment_fraction * std::min(duration(before), duration(after));
   const auto first = spectrum(before, segment);
   const auto second = spectrum(after, segment);
   const double highest = 0.5 / std::max(before.sample_time, after.sample_time);

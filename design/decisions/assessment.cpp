@@ -45,8 +45,8 @@ std::optional<numerics::Interval> figure_change(const Assessment& from, const As
 }
 
 bool are_tied(const Assessment& one, const Assessment& other, double relative) {
-  const auto [least, largest] = std::minmax({ranking_figure(one), ranking_figure(other)});
-  if (largest <= (1.0 + relative) * least) return true;
+  const auto [minimum, largest] = std::minmax({ranking_figure(one), ranking_figure(other)});
+  if (largest <= (1.0 + relative) * minimum) return true;
   const auto change = figure_change(one, other);
   return change && change->lower <= 0.0 && change->upper >= 0.0;
 }

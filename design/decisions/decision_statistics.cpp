@@ -16,8 +16,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-bool within_unit(double share) {
-  return share > 0.0 && share < 1.0;
+bool within_unit(double fraction) {
+  return fraction > 0.0 && fraction < 1.0;
 }
 
 void check_confidence(const char* function, double confidence) {
@@ -30,17 +30,18 @@ void check_confidence(const char* function, double confidence) {
 void check(const Eigen::MatrixXd& outcomes, const DecisionOptions& options) {
   if (outcomes.rows() < 2 || outcomes.cols() < 1) {
     throw InvalidInput(
-        fmt::format("compare_options: expected at least 2 draws (rows) of at least "
+        fmt::format("compare_options: expected at least 2 samples (rows) of at least "
                     "one option (columns), found {} x {}",
                     outcomes.rows(), outcomes.cols()));
   }
   for (Eigen::Index j = 0; j < outcomes.cols(); ++j) {
     for (Eigen::Index n = 0; n < outcomes.rows(); ++n) {
       if (!(outcomes(n, j) > -infinity)) {
-        throw InvalidInput(fmt::format(
-            "compare_options: expected numbers or +infinity (failed) as outcomes, found {} in draw "
-            "{} of option {}",
-            outcomes(n, j), n, j));
+        throw InvalidInput(
+            fmt::format("compare_options: expected numbers or +infinity (failed) as outcomes, "
+                        "found {} in sample "
+                        "{} of option {}",
+                        outcomes(n, j), n, j));
       }
     }
   }
@@ -51,10 +52,10 @@ void check(const Eigen::MatrixXd& outcomes, const DecisionOptions& options) {
         fmt::format("compare_options: expected a tie tolerance of at least 0, found {}",
                     options.tie_tolerance));
   }
-  for (const double share : options.quantile_shares) {
-    if (!within_unit(share)) {
-      throw InvalidInput(
-          fmt::format("compare_options: expected quantile shares within (0, 1), found {}", share));
+  for (const double fraction : options.quantile_fractions) {
+    if (!within_unit(fraction)) {
+      throw InvalidInput(fmt::format(
+          "compare_options: expected quantile fractions within (0, 1), found {}", fraction));
     }
   }
 }
@@ -75,11 +76,11 @@ std::vector<double> sorted(const Eigen::ArrayXd& values) {
   return result;
 }
 
-Quantile quantile_of(const std::vector<double>& values, double share, double confidence) {
-  Quantile result{share, numerics::quantile(values, share), -infinity, infinity};
-  const double chance = 0.5 * (1.0 - confidence);
-  const auto low = numerics::rank_below_quantile(values.size(), share, chance);
-  const auto high = numerics::rank_below_quantile(values.size(), 1.0 - share, chance);
+Quantile quantile_of(const std::vector<double>& values, double fraction, double confidence) {
+  Quantile result{fraction, numerics::quantile(values, fraction), -infinity, infinity};
+  const double probability = 0.5 * (1.0 - confidence);
+  const auto low = numerics::rank_below_quantile(values.size(), fraction, probability);
+  const auto high = numerics::rank_below_quantile(values.size(), 1.0 - fraction, probability);
   if (low >= 0) result.lower = values[static_cast<std::size_t>(low)];
   if (high >= 0) result.upper = values[values.size() - 1 - static_cast<std::size_t>(high)];
   return result;
@@ -101,7 +102,7 @@ Dominance dominance(const Eigen::ArrayXd& first, const Eigen::ArrayXd& second,
                     const std::vector<double>& first_sorted,
                     const std::vector<double>& second_sorted) {
   if (first_sorted == second_sorted) return Dominance::none;
-  if ((first <= second).all()) return Dominance::in_every_draw;
+  if ((first <= second).all()) return Dominance::in_every_sample;
   if (std::equal(first_sorted.begin(), first_sorted.end(), second_sorted.begin(),
                  [](double a, double b) { return a <= b; })) {
     return Dominance::first_order;
@@ -155,8 +156,8 @@ OptionStatistics describe(const Eigen::MatrixXd& outcomes, Eigen::Index option,
   result.standard_error = std::isfinite(result.mean) ? error_of_mean(own) : no_number;
   result.expected_regret = regrets.mean();
   result.regret_error = std::isfinite(result.expected_regret) ? error_of_mean(regrets) : no_number;
-  for (const double share : options.quantile_shares) {
-    result.quantiles.push_back(quantile_of(order, share, options.confidence));
+  for (const double fraction : options.quantile_fractions) {
+    result.quantiles.push_back(quantile_of(order, fraction, options.confidence));
   }
   return result;
 }
@@ -164,7 +165,7 @@ OptionStatistics describe(const Eigen::MatrixXd& outcomes, Eigen::Index option,
 }  // namespace
 
 std::string_view to_string(Dominance dominance) {
-  static constexpr std::array names{"none", "second order", "first order", "in every draw"};
+  static constexpr std::array names{"none", "second order", "first order", "in every sample"};
   return names.at(static_cast<std::size_t>(dominance));
 }
 
@@ -187,9 +188,9 @@ Probability mean_score(const Eigen::ArrayXd& scores, double confidence) {
   const double trials = count * binomial_variance / (mean_square - prior_mean * prior_mean);
   const double a = result.value * trials + 0.5;
   const double b = (1.0 - result.value) * trials + 0.5;
-  const double chance = 0.5 * (1.0 - confidence);
-  result.lower = result.value == 0.0 ? 0.0 : numerics::beta_quantile(chance, a, b);
-  result.upper = result.value == 1.0 ? 1.0 : numerics::beta_quantile(1.0 - chance, a, b);
+  const double probability = 0.5 * (1.0 - confidence);
+  result.lower = result.value == 0.0 ? 0.0 : numerics::beta_quantile(probability, a, b);
+  result.upper = result.value == 1.0 ? 1.0 : numerics::beta_quantile(1.0 - probability, a, b);
   return result;
 }
 
@@ -199,7 +200,7 @@ DecisionStatistics compare_options(const Eigen::MatrixXd& outcomes,
   std::vector<std::vector<double>> order;
   for (Eigen::Index j = 0; j < outcomes.cols(); ++j) order.push_back(sorted(outcomes.col(j)));
   DecisionStatistics result;
-  result.draws = static_cast<std::size_t>(outcomes.rows());
+  result.random_samples = static_cast<std::size_t>(outcomes.rows());
   for (std::size_t i = 0; i < order.size(); ++i) {
     result.options.push_back(describe(outcomes, static_cast<Eigen::Index>(i), order[i], options));
     for (std::size_t j = i + 1; j < order.size(); ++j) {

@@ -12,7 +12,7 @@ struct DecisionOptions {
   /// Two outcomes differing by no more than this are a tie (unit of the outcomes).
   double tie_tolerance = 0.0;
   /// Probabilities of the quantiles to compute.
-  std::vector<double> quantile_shares{0.05, 0.5, 0.95};
+  std::vector<double> quantile_fractions{0.05, 0.5, 0.95};
 };
 
 /// A probability estimated from samples, with its interval.
@@ -31,9 +31,9 @@ Probability mean_score(const Eigen::ArrayXd& scores, double confidence);
 /// statistical test.
 enum class Dominance {
   none,
-  second_order,   // mean of any worst fraction no greater: every risk-averse chooser
-  first_order,    // every quantile is no greater: everyone who prefers smaller losses
-  in_every_draw,  // no greater in every sample
+  second_order,     // mean of any worst fraction no greater: every risk-averse chooser
+  first_order,      // every quantile is no greater: everyone who prefers smaller losses
+  in_every_sample,  // no greater in every sample
 };
 std::string_view to_string(Dominance dominance);
 
@@ -52,12 +52,12 @@ struct PairComparison {
 /// A quantile (linear between order statistics) and its distribution-free interval by order
 /// statistics. Infinite where the samples are too few for a bound.
 struct Quantile {
-  double share = 0.0, value = 0.0, lower = 0.0, upper = 0.0;
+  double fraction = 0.0, value = 0.0, lower = 0.0, upper = 0.0;
 };
 
 struct OptionStatistics {
   double mean = 0.0, standard_error = 0.0;
-  std::vector<Quantile> quantiles;  // at DecisionOptions::quantile_shares
+  std::vector<Quantile> quantiles;  // at DecisionOptions::quantile_fractions
   /// Probability that it is the least of all; a tie counts in equal parts.
   Probability best;
   /// Mean loss relative to the best option of each sample, and its standard error.
@@ -67,7 +67,7 @@ struct OptionStatistics {
 struct DecisionStatistics {
   std::vector<OptionStatistics> options;  // by column
   std::vector<PairComparison> pairs;      // (0, 1), (0, 2), ... (1, 2), ...
-  std::size_t draws = 0;
+  std::size_t random_samples = 0;
 };
 
 /// Compares options by outcomes of which less is better (an rms, a loss): `outcomes(draw, option)`.

@@ -33,24 +33,24 @@ std::vector<std::size_t> pareto_front(const std::vector<CostPoint>& points) {
   return front;
 }
 
-std::vector<double> front_shares(const std::vector<double>& costs,
-                                 const Eigen::MatrixXd& quantities) {
+std::vector<double> front_fractions(const std::vector<double>& costs,
+                                    const Eigen::MatrixXd& quantities) {
   if (quantities.rows() < 1 || static_cast<std::size_t>(quantities.cols()) != costs.size()) {
-    throw InvalidInput(
-        fmt::format("front_shares: expected at least one draw (rows) of {} options (columns), as "
-                    "many as costs, found {} x {}",
-                    costs.size(), quantities.rows(), quantities.cols()));
+    throw InvalidInput(fmt::format(
+        "front_fractions: expected at least one sample (rows) of {} options (columns), as "
+        "many as costs, found {} x {}",
+        costs.size(), quantities.rows(), quantities.cols()));
   }
-  std::vector<double> shares(costs.size(), 0.0);
+  std::vector<double> fractions(costs.size(), 0.0);
   std::vector<CostPoint> points(costs.size());
   for (Eigen::Index n = 0; n < quantities.rows(); ++n) {
     for (std::size_t i = 0; i < costs.size(); ++i) {
       points[i] = {costs[i], quantities(n, static_cast<Eigen::Index>(i))};
     }
-    for (const std::size_t i : pareto_front(points)) shares[i] += 1.0;
+    for (const std::size_t i : pareto_front(points)) fractions[i] += 1.0;
   }
-  for (double& share : shares) share /= static_cast<double>(quantities.rows());
-  return shares;
+  for (double& fraction : fractions) fraction /= static_cast<double>(quantities.rows());
+  return fractions;
 }
 
 }  // namespace boresight::design

@@ -20,7 +20,7 @@ std::vector<std::size_t> pareto_front(const std::vector<CostPoint>& points);
 /// Fraction of the samples in which each option is on the Pareto front of its cost and that
 /// sample's quantity (samples x options). @throws InvalidInput as above, and for sizes that differ
 /// or no samples.
-std::vector<double> front_shares(const std::vector<double>& costs,
-                                 const Eigen::MatrixXd& quantities);
+std::vector<double> front_fractions(const std::vector<double>& costs,
+                                    const Eigen::MatrixXd& quantities);
 
 }  // namespace boresight::design

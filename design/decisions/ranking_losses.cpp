@@ -8,8 +8,8 @@
 namespace boresight::design {
 namespace {
 
-double quantile_at(const OptionStatistics& option, double share) {
-  const auto found = std::ranges::find(option.quantiles, share, &Quantile::share);
+double quantile_at(const OptionStatistics& option, double fraction) {
+  const auto found = std::ranges::find(option.quantiles, fraction, &Quantile::fraction);
   return found == option.quantiles.end() ? std::numeric_limits<double>::infinity() : found->value;
 }
 

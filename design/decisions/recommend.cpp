@@ -47,18 +47,18 @@ bool tied(const Candidate& one, const Candidate& other, double tie) {
 const Candidate* best_of(const std::vector<Candidate>& candidates,
                          const RecommendOptions& options) {
   const auto accepted = [&](const Candidate& one) { return one.fitness <= options.accepted; };
-  const Candidate* least = nullptr;
+  const Candidate* minimum = nullptr;
   for (const auto& one : candidates) {
     if (!accepted(one)) continue;
-    if (least == nullptr ||
-        std::tuple(one.grade(), one.figure) < std::tuple(least->grade(), least->figure)) {
-      least = &one;
+    if (minimum == nullptr ||
+        std::tuple(one.grade(), one.figure) < std::tuple(minimum->grade(), minimum->figure)) {
+      minimum = &one;
     }
   }
-  const Candidate* best = least;
+  const Candidate* best = minimum;
   for (const auto& one : candidates) {
-    if (!accepted(one) || one.grade() != least->grade()) continue;
-    if (!tied(one, *least, options.tie)) continue;
+    if (!accepted(one) || one.grade() != minimum->grade()) continue;
+    if (!tied(one, *minimum, options.tie)) continue;
     if (one.order() < best->order()) best = &one;
   }
   return best;

@@ -9,25 +9,25 @@
 namespace boresight::design {
 
 Tornado tornado(std::size_t inputs,
-                const std::function<double(const std::vector<double>& shares)>& function,
+                const std::function<double(const std::vector<double>& fractions)>& function,
                 double low, double high) {
   const bool in_order = low > 0.0 && low < 0.5 && high > 0.5 && high < 1.0;
   if (inputs < 1 || !in_order) {
     throw InvalidInput(
-        fmt::format("tornado: expected at least one input and shares 0 < low < 0.5 "
+        fmt::format("tornado: expected at least one input and fractions 0 < low < 0.5 "
                     "< high < 1, found {} inputs, low {}, high {}",
                     inputs, low, high));
   }
-  std::vector<double> shares(inputs, 0.5);
-  const auto value = [&](std::size_t input, double share) {
-    shares[input] = share;
-    const double result = function(shares);
-    shares[input] = 0.5;
+  std::vector<double> fractions(inputs, 0.5);
+  const auto value = [&](std::size_t input, double fraction) {
+    fractions[input] = fraction;
+    const double result = function(fractions);
+    fractions[input] = 0.5;
     if (!std::isfinite(result)) {
       throw NumericalFailure(
           fmt::format("tornado: the function is not finite with input {} at its "
-                      "share {}, the others at their medians",
-                      input, share));
+                      "fraction {}, the others at their medians",
+                      input, fraction));
     }
     return result;
   };
@@ -35,8 +35,8 @@ Tornado tornado(std::size_t inputs,
   result.at_median = value(0, 0.5);
   for (std::size_t i = 0; i < inputs; ++i) {
     TornadoBar bar{i, value(i, low), value(i, high)};
-    const auto [least, largest] = std::minmax({bar.at_low, bar.at_high, result.at_median});
-    bar.swing = largest - least;
+    const auto [minimum, largest] = std::minmax({bar.at_low, bar.at_high, result.at_median});
+    bar.swing = largest - minimum;
     result.bars.push_back(bar);
   }
   std::stable_sort(result.bars.begin(), result.bars.end(),

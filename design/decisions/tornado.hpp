@@ -24,7 +24,7 @@ struct Tornado {
 /// @throws InvalidInput for no inputs or quantiles that are not 0 < low < 0.5 < high < 1;
 /// NumericalFailure for a value that is not finite, naming the input.
 Tornado tornado(std::size_t inputs,
-                const std::function<double(const std::vector<double>& shares)>& function,
+                const std::function<double(const std::vector<double>& fractions)>& function,
                 double low = 0.05, double high = 0.95);
 
 }  // namespace boresight::design

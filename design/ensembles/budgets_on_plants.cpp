@@ -8,7 +8,7 @@ namespace boresight::design {
 
 std::vector<std::optional<int>> plants_within_budgets(
     const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
-    const control::ControlLaw& law, const HardGoals& goals,
+    const control::Controller& controller, const Constraints& goals,
     const std::vector<PointingBudget>& budgets, const NonlinearEffect& effect, unsigned threads) {
   std::map<double, EnsembleResult> by_speed;
   std::vector<std::optional<int>> met;
@@ -20,11 +20,12 @@ std::vector<std::optional<int>> plants_within_budgets(
       TrackingProblem windy = problem;
       windy.wind.mean_speed = *budget.wind_speed;
       found =
-          by_speed.emplace(*budget.wind_speed, judge(windy, members, law, goals, threads)).first;
+          by_speed.emplace(*budget.wind_speed, evaluate(windy, members, controller, goals, threads))
+              .first;
     }
     met.back() =
         static_cast<int>(std::ranges::count_if(found->second.members, [&](const auto& member) {
-          return member.stable && within_budget(effect.rms(member.beam_rms), budget.rms);
+          return member.stable && within_budget(effect.rms(member.boresight_rms), budget.rms);
         }));
   }
   return met;

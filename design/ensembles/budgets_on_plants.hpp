@@ -17,7 +17,7 @@ namespace boresight::design {
 /// @throws as judge.
 std::vector<std::optional<int>> plants_within_budgets(
     const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
-    const control::ControlLaw& law, const HardGoals& goals,
+    const control::Controller& controller, const Constraints& goals,
     const std::vector<PointingBudget>& budgets, const NonlinearEffect& effect, unsigned threads);
 
 }  // namespace boresight::design

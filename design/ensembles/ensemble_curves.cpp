@@ -31,14 +31,15 @@ ArrayXd sensitivity_grid(const TrackingProblem& problem) {
 }
 
 std::array<ArrayXd, 3> sensitivities(const plant::AntennaPlant& plant, double delay,
-                                     const control::ControlLaw& law, const ArrayXd& frequency) {
+                                     const control::Controller& controller,
+                                     const ArrayXd& frequency) {
   const auto response = plant::plant_response(plant, frequency);
   std::array<ArrayXd, 3> found;
   for (std::size_t b = 0; b < found.size(); ++b) {
     found.at(b).resize(frequency.size());
     for (Index i = 0; i < frequency.size(); ++i) {
-      const auto gain = control::loop_gain(plant::point(response, i), frequency[i], law, delay,
-                                           control::loop_breaks.at(b));
+      const auto gain = control::loop_gain(plant::point(response, i), frequency[i], controller,
+                                           delay, control::loop_breaks.at(b));
       found.at(b)[i] = 1.0 / std::abs(1.0 + gain);
     }
   }
@@ -62,7 +63,7 @@ WindAtSpeeds wind_at_speeds(TrackingProblem problem, double highest) {
   return winds;
 }
 
-ArrayXd rms_at_speeds(const TrackingProblem& problem, const control::ControlLaw& law,
+ArrayXd rms_at_speeds(const TrackingProblem& problem, const control::Controller& controller,
                       const WindAtSpeeds& winds) {
   const ArrayXd frequency = analysis_grid(problem);
   control::LoopEvaluator evaluator(problem.plant, frequency,
@@ -70,8 +71,8 @@ ArrayXd rms_at_speeds(const TrackingProblem& problem, const control::ControlLaw&
                                     .noise = problem.noise,
                                     .wind_spectrum = ArrayXd::Zero(frequency.size()),
                                     .band = problem.rms_band});
-  const ArrayXd weight = evaluator.integration_weight() * evaluator.wind_transmission(law);
-  const double noise = evaluator.evaluate(law, false).noise_variance;
+  const ArrayXd weight = evaluator.integration_weight() * evaluator.wind_transmission(controller);
+  const double noise = evaluator.evaluate(controller, false).noise_variance;
   ArrayXd rms(winds.speed.size());
   for (Index k = 0; k < rms.size(); ++k) {
     const WindTable& table = winds.tables[static_cast<std::size_t>(k)];
@@ -84,7 +85,7 @@ ArrayXd rms_at_speeds(const TrackingProblem& problem, const control::ControlLaw&
   return rms;
 }
 
-using CommandLoop = plant::StateSpace (*)(const plant::AntennaPlant&, const control::ControlLaw&,
+using CommandLoop = plant::StateSpace (*)(const plant::AntennaPlant&, const control::Controller&,
                                           double);
 
 // The loop's first output after a unit step of its first input, at equal steps from 0.
@@ -115,7 +116,7 @@ ArrayXd step_grid(const plant::StateSpace& loop) {
 // One plant's curves.
 struct PlantCurves {
   std::array<ArrayXd, 3> sensitivity;
-  ArrayXd beam_rms;
+  ArrayXd boresight_rms;
   std::array<ArrayXd, 2> steps;
 };
 
@@ -131,11 +132,11 @@ EnsembleBand band_over(const ArrayXd& nominal, const std::vector<PlantCurves>& m
   return band;
 }
 
-EnsembleCurves::Worst worst_at(std::size_t loop_break, const EnsembleResult& judged,
+EnsembleCurves::Worst worst_at(std::size_t loop_break, const EnsembleResult& evaluated,
                                const std::vector<PlantCurves>& members) {
   EnsembleCurves::Worst worst;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    const MemberResult& member = judged.members[i];
+    const MemberResult& member = evaluated.members[i];
     if (!member.stable || !(member.sensitivity_peaks.at(loop_break) > worst.peak)) continue;
     worst.member = member.name;
     worst.peak = member.sensitivity_peaks.at(loop_break);
@@ -157,35 +158,36 @@ double highest_compared_speed(double mean_speed, const std::vector<double>& spee
 
 EnsembleCurves ensemble_curves(const TrackingProblem& problem,
                                const std::vector<EnsembleMember>& members,
-                               const control::ControlLaw& law, const EnsembleResult& judged,
-                               double highest_speed, unsigned threads) {
-  control::validate(law);
-  if (members.size() != judged.members.size() || !(highest_speed > 0.0)) {
-    throw InvalidInput(
-        fmt::format("ensemble_curves: expected as many members as were judged and a highest speed "
-                    "above 0, found {}, {} and {} m/s",
-                    members.size(), judged.members.size(), highest_speed));
+                               const control::Controller& controller,
+                               const EnsembleResult& evaluated, double highest_speed,
+                               unsigned threads) {
+  control::validate(controller);
+  if (members.size() != evaluated.members.size() || !(highest_speed > 0.0)) {
+    throw InvalidInput(fmt::format(
+        "ensemble_curves: expected as many members as were evaluated and a highest speed "
+        "above 0, found {}, {} and {} m/s",
+        members.size(), evaluated.members.size(), highest_speed));
   }
   constexpr std::array<CommandLoop, 2> command_loops{control::rate_command_loop,
                                                      control::position_command_loop};
   EnsembleCurves curves;
   curves.members = members.size();
   curves.stable = static_cast<std::size_t>(
-      std::ranges::count_if(judged.members, [](const MemberResult& one) { return one.stable; }));
+      std::ranges::count_if(evaluated.members, [](const MemberResult& one) { return one.stable; }));
   curves.frequency = sensitivity_grid(problem);
   const WindAtSpeeds winds = wind_at_speeds(problem, highest_speed);
   curves.wind_speed = winds.speed;
   std::array<ArrayXd, 2> times;
   for (std::size_t loop = 0; loop < times.size(); ++loop) {
-    times.at(loop) = step_grid(command_loops.at(loop)(problem.plant, law, problem.delay));
+    times.at(loop) = step_grid(command_loops.at(loop)(problem.plant, controller, problem.delay));
   }
   const auto curves_of = [&](TrackingProblem of_plant) {
     PlantCurves found;
-    found.sensitivity = sensitivities(of_plant.plant, of_plant.delay, law, curves.frequency);
-    found.beam_rms = rms_at_speeds(of_plant, law, winds);
+    found.sensitivity = sensitivities(of_plant.plant, of_plant.delay, controller, curves.frequency);
+    found.boresight_rms = rms_at_speeds(of_plant, controller, winds);
     for (std::size_t loop = 0; loop < times.size(); ++loop) {
       found.steps.at(loop) =
-          step_response(command_loops.at(loop)(of_plant.plant, law, of_plant.delay),
+          step_response(command_loops.at(loop)(of_plant.plant, controller, of_plant.delay),
                         times.at(loop)[1], step_times);
     }
     return found;
@@ -193,7 +195,7 @@ EnsembleCurves ensemble_curves(const TrackingProblem& problem,
   const PlantCurves nominal = curves_of(problem);
   std::vector<PlantCurves> found(members.size());
   numerics::for_each_index(members.size(), threads, [&](std::size_t i) {
-    if (!judged.members[i].stable) return;
+    if (!evaluated.members[i].stable) return;
     TrackingProblem of_member = problem;
     of_member.plant = members[i].plant;
     // Ranges of smooth integrands: a third of the points of the problem's own figures.
@@ -204,11 +206,11 @@ EnsembleCurves ensemble_curves(const TrackingProblem& problem,
     curves.sensitivity.at(b) =
         band_over(nominal.sensitivity.at(b), found,
                   [b](const PlantCurves& one) -> const ArrayXd& { return one.sensitivity.at(b); });
-    curves.worst.at(b) = worst_at(b, judged, found);
+    curves.worst.at(b) = worst_at(b, evaluated, found);
   }
-  curves.beam_rms =
-      band_over(nominal.beam_rms, found,
-                [](const PlantCurves& one) -> const ArrayXd& { return one.beam_rms; });
+  curves.boresight_rms =
+      band_over(nominal.boresight_rms, found,
+                [](const PlantCurves& one) -> const ArrayXd& { return one.boresight_rms; });
   const auto step = [&](std::size_t loop) {
     return StepOverEnsemble{
         times.at(loop),

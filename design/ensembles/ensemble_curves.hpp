@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
@@ -42,7 +42,7 @@ struct EnsembleCurves {
   };
   std::array<Worst, 3> worst;
   Eigen::ArrayXd wind_speed;       // m/s, mean, rising
-  EnsembleBand beam_rms;           // rad at the sky, per axis
+  EnsembleBand boresight_rms;      // rad at the sky, per axis
   StepOverEnsemble rate_step;      // tachometer per rate command, position loop open
   StepOverEnsemble position_step;  // encoder per position command
 };
@@ -55,13 +55,14 @@ double highest_compared_speed(double mean_speed, const std::vector<double>& spee
 /// Computes the curves. Sensitivities run from 0.01 Hz (or the lowest frequency of the rms band) to
 /// the end of the analysis band, 150 points per decade. The rms is by spectrum at 60 speeds up to
 /// `highest_speed`, noise included. Steps have 300 times, until the nominal loop has settled within
-/// 2 % and half as long again. `judged`: result of the same controller on the same members (judge).
-/// The result does not depend on the number of threads. O(members (grid + states^3)).
-/// @throws InvalidInput where sizes of `members` and `judged` differ, for a highest speed that is
-/// not positive, and as control::validate.
+/// 2 % and half as long again. `evaluated`: result of the same controller on the same members
+/// (judge). The result does not depend on the number of threads. O(members (grid + states^3)).
+/// @throws InvalidInput where sizes of `members` and `evaluated` differ, for a highest speed that
+/// is not positive, and as control::validate.
 EnsembleCurves ensemble_curves(const TrackingProblem& problem,
                                const std::vector<EnsembleMember>& members,
-                               const control::ControlLaw& law, const EnsembleResult& judged,
-                               double highest_speed, unsigned threads);
+                               const control::Controller& controller,
+                               const EnsembleResult& evaluated, double highest_speed,
+                               unsigned threads);
 
 }  // namespace boresight::design

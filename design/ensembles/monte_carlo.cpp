@@ -31,10 +31,10 @@ struct NamedGoal {
   std::optional<control::LoopBreak> loop_break;
 };
 
-std::vector<NamedGoal> asked_for(const HardGoals& goals) {
+std::vector<NamedGoal> asked_for(const Constraints& goals) {
   std::vector<NamedGoal> asked;
   for (const auto cut : control::loop_breaks) asked.push_back({GoalKind::sensitivity_peak, cut});
-  asked.push_back({GoalKind::valve_effort, std::nullopt});
+  asked.push_back({GoalKind::control_effort, std::nullopt});
   for (std::size_t b = 0; b < breaks; ++b) {
     if (goals.gain_margin.at(b)) {
       asked.push_back({GoalKind::gain_margin, control::loop_breaks.at(b)});
@@ -57,10 +57,10 @@ static_assert(kinds * breaks <= 32);
 
 }  // namespace
 
-std::vector<std::string> goal_names(const HardGoals& goals) {
+std::vector<std::string> goal_names(const Constraints& goals) {
   std::vector<std::string> names;
   for (const auto& [kind, loop_break] : asked_for(goals)) {
-    GoalRatio ratio;
+    NormalisedConstraint ratio;
     ratio.kind = kind;
     ratio.loop_break = loop_break;
     names.push_back(describe(ratio));
@@ -68,8 +68,8 @@ std::vector<std::string> goal_names(const HardGoals& goals) {
   return names;
 }
 
-MonteCarloJudge::MonteCarloJudge(const MonteCarlo& study)
-    : study_(study), held_(study.problem, study.law, study.goals, study.held) {
+MonteCarloEvaluator::MonteCarloEvaluator(const MonteCarlo& study)
+    : study_(study), fixed_gain_(study.problem, study.controller, study.goals, study.fixed_gain) {
   validate(study.goals);
   if (study.confirm_every < 1) {
     throw InvalidInput("MonteCarlo: expected confirm_every of 1 or more, found 0");
@@ -78,62 +78,64 @@ MonteCarloJudge::MonteCarloJudge(const MonteCarlo& study)
                  study.problem.gear_ratio;
 }
 
-PlantOutcome MonteCarloJudge::judge(std::uint64_t index) {
+PlantOutcome MonteCarloEvaluator::evaluate(std::uint64_t index) {
   try {
-    return judge(study_.plant(index), index % study_.confirm_every == 0);
+    return evaluate(study_.plant(index), index % study_.confirm_every == 0);
   } catch (const NumericalFailure& failure) {
     throw NumericalFailure(fmt::format("plant {}: {}", index, failure.what()));
   }
 }
 
-PlantOutcome MonteCarloJudge::judge(const plant::AntennaPlant& plant, bool confirm_this) {
-  const HeldGainsValues values = held_.evaluate(plant);
+PlantOutcome MonteCarloEvaluator::evaluate(const plant::AntennaPlant& plant, bool confirm_this) {
+  const FixedGainValues values = fixed_gain_.evaluate(plant);
   PlantOutcome outcome;
-  outcome.standing = values.stable ? Standing::stable_by_winding : Standing::unstable;
+  outcome.stability_basis =
+      values.stable ? StabilityBasis::stable_by_encirclements : StabilityBasis::unstable;
   // The values come first: confirming looks at the plant again.
   set_goals(plant, values, outcome);
-  if (confirm_this || held_.near_the_axis(values)) confirm(plant, outcome);
+  if (confirm_this || fixed_gain_.near_the_axis(values)) confirm(plant, outcome);
   const double ratio = study_.problem.gear_ratio;
-  outcome.beam_rms = std::sqrt(values.wind_variance + values.noise_variance) / ratio;
+  outcome.boresight_rms = std::sqrt(values.wind_variance + values.noise_variance) / ratio;
   outcome.climate_rms = study_.problem.climate.empty()
                             ? nan
                             : std::sqrt(values.climate_variance + values.noise_variance) / ratio;
-  outcome.valve_effort = std::sqrt(values.effort_variance);
+  outcome.control_effort = std::sqrt(values.effort_variance);
   outcome.sensitivity_peaks = values.sensitivity_peaks;
   outcome.retuned_rms = study_.retune ? retuned_rms(plant) : nan;
   if (!outcome.stable()) {
-    outcome.beam_rms = outcome.climate_rms = outcome.valve_effort = nan;
+    outcome.boresight_rms = outcome.climate_rms = outcome.control_effort = nan;
     outcome.sensitivity_peaks.fill(nan);
-    outcome.worst_goal_ratio = infinity;
-    outcome.broken_goals = 0;
+    outcome.worst_constraint = infinity;
+    outcome.violated_constraints = 0;
   }
   return outcome;
 }
 
-void MonteCarloJudge::confirm(const plant::AntennaPlant& plant, PlantOutcome& outcome) {
-  const auto verdict = held_.confirm(plant);
+void MonteCarloEvaluator::confirm(const plant::AntennaPlant& plant, PlantOutcome& outcome) {
+  const auto verdict = fixed_gain_.confirm(plant);
   outcome.confirmed = 1;
-  const bool winding = outcome.standing == Standing::stable_by_winding;
+  const bool encirclements = outcome.stability_basis == StabilityBasis::stable_by_encirclements;
   const bool poles = verdict.rate_loop_abscissa < 0.0 && verdict.closed_loop_abscissa < 0.0;
-  outcome.contradicted = winding != poles ? 1 : 0;
+  outcome.contradicted = encirclements != poles ? 1 : 0;
   if (verdict.dead_time_residue >= 1.0) {
-    outcome.standing = Standing::undecided;
+    outcome.stability_basis = StabilityBasis::undecided;
   } else {
-    outcome.standing = poles ? Standing::stable_by_eigenvalues : Standing::unstable;
+    outcome.stability_basis =
+        poles ? StabilityBasis::stable_by_eigenvalues : StabilityBasis::unstable;
   }
 }
 
-void MonteCarloJudge::add_margins(const plant::AntennaPlant& plant) {
-  append_margin_ratios(control::make_channels(plant, held_.frequencies()), study_.problem.delay,
-                       study_.law, study_.goals, ratios_);
+void MonteCarloEvaluator::add_margins(const plant::AntennaPlant& plant) {
+  append_margin_ratios(control::make_channels(plant, fixed_gain_.frequencies()),
+                       study_.problem.delay, study_.controller, study_.goals, ratios_);
 }
 
-void MonteCarloJudge::set_goals(const plant::AntennaPlant& plant, const HeldGainsValues& values,
-                                PlantOutcome& outcome) {
-  const HardGoals& goals = study_.goals;
+void MonteCarloEvaluator::set_goals(const plant::AntennaPlant& plant, const FixedGainValues& values,
+                                    PlantOutcome& outcome) {
+  const Constraints& goals = study_.goals;
   ratios_.clear();
   const auto add = [&](GoalKind kind, std::optional<control::LoopBreak> loop_break, double ratio) {
-    GoalRatio& goal = ratios_.emplace_back();
+    NormalisedConstraint& goal = ratios_.emplace_back();
     goal.kind = kind;
     goal.loop_break = loop_break;
     goal.ratio = ratio;
@@ -142,7 +144,8 @@ void MonteCarloJudge::set_goals(const plant::AntennaPlant& plant, const HeldGain
     add(GoalKind::sensitivity_peak, control::loop_breaks.at(b),
         values.sensitivity_peaks.at(b) / goals.sensitivity_peak.at(b));
   }
-  add(GoalKind::valve_effort, std::nullopt, std::sqrt(values.effort_variance) / goals.valve_effort);
+  add(GoalKind::control_effort, std::nullopt,
+      std::sqrt(values.effort_variance) / goals.control_effort);
   if (goals.gust_demand) {
     const double leaking = plant.drive.leakage_rate / plant.drive.oil_stiffness * mean_torque_;
     add(GoalKind::gust_demand, std::nullopt,
@@ -159,34 +162,35 @@ void MonteCarloJudge::set_goals(const plant::AntennaPlant& plant, const HeldGain
   constexpr double rounding = 1e-4;
   std::uint32_t broken = 0;
   for (const auto& goal : ratios_) {
-    outcome.worst_goal_ratio = std::max(outcome.worst_goal_ratio, goal.ratio);
+    outcome.worst_constraint = std::max(outcome.worst_constraint, goal.ratio);
     if (!(goal.ratio <= 1.0 + rounding)) broken |= 1U << bit_of(goal.kind, goal.loop_break);
   }
   // In the order of goal_names().
   std::uint32_t place = 0;
   for (const auto& [kind, loop_break] : asked_for(goals)) {
-    outcome.broken_goals |= ((broken >> bit_of(kind, loop_break)) & 1U) << place++;
+    outcome.violated_constraints |= ((broken >> bit_of(kind, loop_break)) & 1U) << place++;
   }
 }
 
-double MonteCarloJudge::retuned_rms(const plant::AntennaPlant& plant) const {
+double MonteCarloEvaluator::retuned_rms(const plant::AntennaPlant& plant) const {
   TrackingProblem problem = study_.problem;
   problem.plant = plant;
   if (!study_.retune_over_climate) problem.climate.clear();
   TuningOptions options;
   options.starts = 0;
-  options.warm_starts = {study_.law.gains};
-  const TuningResult tuned = tune(problem, study_.law.structure, study_.goals, options);
+  options.warm_starts = {study_.controller.gains};
+  const TuningResult tuned = tune(problem, study_.controller.structure, study_.goals, options);
   if (tuned.status != TuningStatus::optimal) return nan;
   if (!study_.retune_over_climate) {
-    return std::sqrt(tuned.evaluation.beam_variance()) / problem.gear_ratio;
+    return std::sqrt(tuned.evaluation.boresight_variance()) / problem.gear_ratio;
   }
   problem.climate.clear();
   auto evaluator = make_adaptive_evaluator(problem, WindTable(problem));
-  return std::sqrt(evaluator.evaluate(tuned.law, false).beam_variance()) / problem.gear_ratio;
+  return std::sqrt(evaluator.evaluate(tuned.controller, false).boresight_variance()) /
+         problem.gear_ratio;
 }
 
-MonteCarloRun::MonteCarloRun(const MonteCarlo& study) : study_(study), judge_(study) {
+MonteCarloRun::MonteCarloRun(const MonteCarlo& study) : study_(study), evaluator_(study) {
   if (study_.plants < 1) throw InvalidInput("MonteCarlo: expected 1 plant or more, found 0");
   if (!study_.plant) throw InvalidInput("MonteCarlo: expected plants, found no function of them");
   blocks_ = static_cast<std::size_t>((study_.plants + block_size - 1) / block_size);
@@ -233,13 +237,13 @@ void MonteCarloRun::work_on(const std::vector<std::size_t>& blocks, const Option
   std::atomic<bool> stopped{false};
   const auto work_on_block = [&](std::size_t i) {
     // Worked on where no other thread writes, and put in place when whole.
-    MonteCarloJudge judge = judge_;
+    MonteCarloEvaluator evaluate = evaluator_;
     std::vector<PlantOutcome> outcomes;
     const std::uint64_t first = static_cast<std::uint64_t>(blocks[i]) * block_size;
     for (std::uint64_t k = 0; k < size_of(blocks[i]); ++k) {
       if (options.stop && options.stop()) stopped = true;
       if (stopped) return;
-      outcomes.push_back(judge.judge(first + k));
+      outcomes.push_back(evaluate.evaluate(first + k));
     }
     put(blocks[i], outcomes);
   };

@@ -24,10 +24,10 @@ EstimatedNumber about(double value, double standard_error) {
 }
 
 // The interval of a quantile between order statistics of sorted values.
-EstimatedNumber quantile(const std::vector<double>& sorted, double share) {
-  EstimatedNumber number{numerics::quantile(sorted, share), -infinity, infinity};
-  const auto lower = numerics::rank_below_quantile(sorted.size(), share, tail);
-  const auto upper = numerics::rank_below_quantile(sorted.size(), 1.0 - share, tail);
+EstimatedNumber quantile(const std::vector<double>& sorted, double fraction) {
+  EstimatedNumber number{numerics::quantile(sorted, fraction), -infinity, infinity};
+  const auto lower = numerics::rank_below_quantile(sorted.size(), fraction, tail);
+  const auto upper = numerics::rank_below_quantile(sorted.size(), 1.0 - fraction, tail);
   if (lower >= 0) number.lower = sorted[static_cast<std::size_t>(lower)];
   if (upper >= 0) number.upper = sorted[sorted.size() - 1 - static_cast<std::size_t>(upper)];
   return number;
@@ -53,11 +53,11 @@ std::vector<double> ranks(const std::vector<double>& values) {
 
 }  // namespace
 
-DistributionSummary summarise(std::vector<double> values, const std::vector<double>& shares) {
-  for (const double share : shares) {
-    if (!(share > 0.0) || !(share < 1.0)) {
+DistributionSummary summarise(std::vector<double> values, const std::vector<double>& fractions) {
+  for (const double fraction : fractions) {
+    if (!(fraction > 0.0) || !(fraction < 1.0)) {
       throw InvalidInput(
-          fmt::format("summarise: expected shares within (0, 1), found {:g}", share));
+          fmt::format("summarise: expected fractions within (0, 1), found {:g}", fraction));
     }
   }
   for (const double value : values) {
@@ -67,12 +67,12 @@ DistributionSummary summarise(std::vector<double> values, const std::vector<doub
   }
   std::ranges::sort(values);
   DistributionSummary summary;
-  summary.draws = values.size();
+  summary.random_samples = values.size();
   const EstimatedNumber unknown{nan, nan, nan};
   if (values.empty()) {
     summary.mean = summary.standard_deviation = unknown;
-    summary.least = summary.largest = nan;
-    for (const double share : shares) summary.quantiles.push_back({share, unknown});
+    summary.minimum = summary.largest = nan;
+    for (const double fraction : fractions) summary.quantiles.push_back({fraction, unknown});
     return summary;
   }
   const auto n = static_cast<double>(values.size());
@@ -87,7 +87,7 @@ DistributionSummary summarise(std::vector<double> values, const std::vector<doub
     square += away;
     fourth += away * away;
   }
-  summary.least = values.front();
+  summary.minimum = values.front();
   summary.largest = values.back();
   if (values.size() < 2) {
     summary.mean = {mean, -infinity, infinity};
@@ -100,18 +100,20 @@ DistributionSummary summarise(std::vector<double> values, const std::vector<doub
     summary.standard_deviation = about(deviation, error);
     summary.standard_deviation.lower = std::max(0.0, summary.standard_deviation.lower);
   }
-  for (const double share : shares) summary.quantiles.push_back({share, quantile(values, share)});
+  for (const double fraction : fractions)
+    summary.quantiles.push_back({fraction, quantile(values, fraction)});
   return summary;
 }
 
-EstimatedNumber probability(std::uint64_t hits, std::uint64_t draws) {
-  if (hits > draws) {
-    throw InvalidInput(fmt::format("probability: expected at most {} hits, found {}", draws, hits));
+EstimatedNumber probability(std::uint64_t hits, std::uint64_t random_samples) {
+  if (hits > random_samples) {
+    throw InvalidInput(
+        fmt::format("probability: expected at most {} hits, found {}", random_samples, hits));
   }
-  if (draws == 0) return {nan, 0.0, 1.0};
-  const auto k = static_cast<double>(hits), n = static_cast<double>(draws);
+  if (random_samples == 0) return {nan, 0.0, 1.0};
+  const auto k = static_cast<double>(hits), n = static_cast<double>(random_samples);
   return {k / n, hits == 0 ? 0.0 : boost::math::ibeta_inv(k, n - k + 1.0, tail),
-          hits == draws ? 1.0 : boost::math::ibetac_inv(k + 1.0, n - k, tail)};
+          hits == random_samples ? 1.0 : boost::math::ibetac_inv(k + 1.0, n - k, tail)};
 }
 
 EstimatedNumber rank_correlation(const std::vector<double>& x, const std::vector<double>& y) {
@@ -119,8 +121,8 @@ EstimatedNumber rank_correlation(const std::vector<double>& x, const std::vector
     throw InvalidInput(fmt::format(
         "rank_correlation: expected as many values of both, found {} and {}", x.size(), y.size()));
   }
-  constexpr std::size_t least = 10;
-  if (x.size() < least) return {nan, nan, nan};
+  constexpr std::size_t minimum = 10;
+  if (x.size() < minimum) return {nan, nan, nan};
   const auto rank_x = ranks(x), rank_y = ranks(y);
   const double middle = 0.5 * (static_cast<double>(x.size()) + 1.0);
   double xx = 0.0, yy = 0.0, xy = 0.0;

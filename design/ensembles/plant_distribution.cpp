@@ -38,7 +38,7 @@ constexpr std::uint64_t valve_stream = 0x5eed0004;
 // numbers stay the same whether they vary or not.
 constexpr std::size_t plant_inputs = place(UncertainInput::wind_torque);
 
-// Logarithms of a draw's factors against the estimate's case, in the order of PlantDraw::values.
+// Logarithms of a draw's factors against the estimate's case, in the order of PlantSample::values.
 // Nothing where it leaves the antenna no inertia.
 std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
                                            const identification::DriveEstimate& draw) {
@@ -61,9 +61,9 @@ std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
 }
 
 // Standard deviation of the logarithm of the draws' valve lags.
-double valve_deviation(const std::vector<identification::DriveEstimate>& draws) {
+double valve_deviation(const std::vector<identification::DriveEstimate>& random_samples) {
   std::vector<double> logs;
-  for (const auto& draw : draws) {
+  for (const auto& draw : random_samples) {
     if (draw.valve_lag > 0.0) logs.push_back(std::log(draw.valve_lag));
   }
   if (logs.size() < 2) return 0.0;
@@ -80,7 +80,7 @@ std::string_view to_string(UncertainInput input) {
   return names.at(place(input));
 }
 
-std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw) {
+std::vector<plant::AntennaChange> changes_of(const PlantSample& draw) {
   using enum UncertainInput;
   return {plant::set_to("drive.viscous_friction", draw[friction_slope]),
           plant::scaled_by("at_shaft.antenna_inertia", draw[antenna_inertia]),
@@ -92,9 +92,9 @@ std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw) {
           plant::scaled_by("drive.valve_frequency", draw[valve_frequency])};
 }
 
-double PlantDistribution::Marginal::at(double share) const {
-  if (uniform) return lower + share * (upper - lower);
-  return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * share));
+double PlantDistribution::Marginal::at(double fraction) const {
+  if (uniform) return lower + fraction * (upper - lower);
+  return std::exp(centre - deviation * std::numbers::sqrt2 * boost::math::erfc_inv(2.0 * fraction));
 }
 
 void PlantDistribution::set_lognormal(UncertainInput input, double centre, double deviation) {
@@ -152,18 +152,19 @@ PlantDistribution PlantDistribution::of_ranges(const Mission& mission) {
 }
 
 PlantDistribution PlantDistribution::of_records(
-    const Mission& identified, const std::vector<identification::DriveEstimate>& draws,
+    const Mission& identified, const std::vector<identification::DriveEstimate>& random_samples,
     const identification::IdentifiedParts& parts) {
-  constexpr Eigen::Index least = 20;
-  Eigen::MatrixXd logs(static_cast<Eigen::Index>(draws.size()), plant_inputs);
+  constexpr Eigen::Index minimum = 20;
+  Eigen::MatrixXd logs(static_cast<Eigen::Index>(random_samples.size()), plant_inputs);
   Eigen::Index kept = 0;
-  for (const auto& draw : draws) {
+  for (const auto& draw : random_samples) {
     if (const auto row = log_factors(identified.antenna, draw)) logs.row(kept++) = row->transpose();
   }
-  if (kept < least) {
-    throw InvalidInput(fmt::format(
-        "PlantDistribution: expected {} draws or more that leave the antenna an inertia, found {}",
-        least, kept));
+  if (kept < minimum) {
+    throw InvalidInput(
+        fmt::format("PlantDistribution: expected {} samples or more that leave the antenna an "
+                    "inertia, found {}",
+                    minimum, kept));
   }
   logs.conservativeResize(kept, Eigen::NoChange);
   const Eigen::RowVectorXd mean = logs.colwise().mean();
@@ -193,14 +194,15 @@ PlantDistribution PlantDistribution::of_records(
     distribution.set_ranges(leakage_rate, range.lower / drive.leakage_rate,
                             range.upper / drive.leakage_rate);
   }
-  if (parts.valve_lag) distribution.set_lognormal(valve_frequency, 0.0, valve_deviation(draws));
+  if (parts.valve_lag)
+    distribution.set_lognormal(valve_frequency, 0.0, valve_deviation(random_samples));
   distribution.source_ = EnsembleSource::records;
   distribution.set_lognormal(wind_torque, 0.0, identified.uncertainty.wind_torque);
   distribution.list_inputs();
   return distribution;
 }
 
-PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const {
+PlantSample PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const {
   const numerics::NormalNumbers normals(seed, normal_stream);
   constexpr std::uint64_t pairs = (plant_inputs + 1) / 2;
   std::array<double, 2 * pairs> standard{};
@@ -209,12 +211,12 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
     standard.at(2 * k) = pair.real();
     standard.at(2 * k + 1) = pair.imag();
   }
-  const std::uint64_t shares = numerics::splitmix64(seed, uniform_stream);
-  PlantDraw draw;
+  const std::uint64_t fractions = numerics::splitmix64(seed, uniform_stream);
+  PlantSample draw;
   for (std::size_t i = 0; i < plant_inputs; ++i) {
     const Marginal& marginal = marginals_.at(i);
     if (marginal.uniform) {
-      draw.values.at(i) = marginal.at(uniform(shares, index * plant_inputs + i));
+      draw.values.at(i) = marginal.at(uniform(fractions, index * plant_inputs + i));
       continue;
     }
     double sum = marginal.centre;
@@ -232,24 +234,26 @@ PlantDraw PlantDistribution::draw(std::uint64_t seed, std::uint64_t index) const
   return draw;
 }
 
-PlantDraw PlantDistribution::at_shares(const std::vector<double>& shares) const {
-  if (shares.size() != inputs_.size()) {
-    throw InvalidInput(fmt::format("PlantDistribution::at_shares: expected {} shares, found {}",
-                                   inputs_.size(), shares.size()));
+PlantSample PlantDistribution::at_fractions(const std::vector<double>& fractions) const {
+  if (fractions.size() != inputs_.size()) {
+    throw InvalidInput(
+        fmt::format("PlantDistribution::at_fractions: expected {} fractions, found {}",
+                    inputs_.size(), fractions.size()));
   }
-  PlantDraw draw = median();
-  for (std::size_t k = 0; k < shares.size(); ++k) {
-    if (!(shares[k] > 0.0) || !(shares[k] < 1.0)) {
+  PlantSample draw = median();
+  for (std::size_t k = 0; k < fractions.size(); ++k) {
+    if (!(fractions[k] > 0.0) || !(fractions[k] < 1.0)) {
       throw InvalidInput(fmt::format(
-          "PlantDistribution::at_shares: expected shares within (0, 1), found {:g}", shares[k]));
+          "PlantDistribution::at_fractions: expected fractions within (0, 1), found {:g}",
+          fractions[k]));
     }
-    draw.values.at(place(inputs_[k])) = marginals_.at(place(inputs_[k])).at(shares[k]);
+    draw.values.at(place(inputs_[k])) = marginals_.at(place(inputs_[k])).at(fractions[k]);
   }
   return draw;
 }
 
-PlantDraw PlantDistribution::median() const {
-  PlantDraw draw;
+PlantSample PlantDistribution::median() const {
+  PlantSample draw;
   for (std::size_t i = 0; i < uncertain_inputs; ++i) {
     const Marginal& marginal = marginals_.at(i);
     draw.values.at(i) =

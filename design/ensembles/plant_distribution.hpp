@@ -12,7 +12,7 @@
 
 namespace boresight::design {
 
-/// The uncertain inputs of a plant, in the order of PlantDraw::values.
+/// The uncertain inputs of a plant, in the order of PlantSample::values.
 enum class UncertainInput {
   structure_frequency,  // factor on the frequencies of locked rotor and modes
   oil_stiffness,        // factor
@@ -29,7 +29,7 @@ std::string_view to_string(UncertainInput input);
 
 /// One sample of the plant: factors on the numbers of an antenna (after any proposal changes them),
 /// and the friction slope.
-struct PlantDraw {
+struct PlantSample {
   std::array<double, uncertain_inputs> values{1.0, 1.0, 1.0, 0.0, 1.0, 1.0, 1.0, 1.0};
 
   double operator[](UncertainInput input) const {
@@ -37,7 +37,7 @@ struct PlantDraw {
   }
 };
 
-std::vector<plant::AntennaChange> changes_of(const PlantDraw& draw);
+std::vector<plant::AntennaChange> changes_of(const PlantSample& draw);
 
 /// The distribution of the plant, given the available data.
 class PlantDistribution {
@@ -51,18 +51,18 @@ class PlantDistribution {
   /// If `parts` has the valve's lag, the valve's frequency is lognormal, independent of the rest.
   /// The wind torque is as in of_ranges. Samples without a positive antenna inertia are skipped.
   /// @throws InvalidInput for fewer than 20 samples.
-  static PlantDistribution of_records(const Mission& identified,
-                                      const std::vector<identification::DriveEstimate>& draws,
-                                      const identification::IdentifiedParts& parts = {});
+  static PlantDistribution of_records(
+      const Mission& identified, const std::vector<identification::DriveEstimate>& random_samples,
+      const identification::IdentifiedParts& parts = {});
 
   /// Sample number `index` of a seed, independent of earlier calls.
-  PlantDraw draw(std::uint64_t seed, std::uint64_t index) const;
+  PlantSample draw(std::uint64_t seed, std::uint64_t index) const;
   /// The sample with each input at this quantile (0 to 1, both excluded) of its own distribution,
   /// as if the inputs were independent. @throws InvalidInput for another number of quantiles, or
   /// one outside this range.
-  PlantDraw at_shares(const std::vector<double>& shares) const;
+  PlantSample at_fractions(const std::vector<double>& fractions) const;
   /// Every input at its median.
-  PlantDraw median() const;
+  PlantSample median() const;
   /// Inputs that vary.
   const std::vector<UncertainInput>& inputs() const { return inputs_; }
   EnsembleSource source() const { return source_; }
@@ -76,7 +76,7 @@ class PlantDistribution {
     double lower = 1.0, upper = 1.0;
     double centre = 0.0, deviation = 0.0;  // of the logarithm
 
-    double at(double share) const;
+    double at(double fraction) const;
   };
   void set_lognormal(UncertainInput input, double centre, double deviation);
   void set_ranges(UncertainInput input, double lower, double upper);

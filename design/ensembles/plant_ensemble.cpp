@@ -6,36 +6,36 @@
 #include <fmt/format.h>
 
 #include <boresight/design/ensembles/plant_ensemble.hpp>
-#include <boresight/design/tuning/judged_plant.hpp>
+#include <boresight/design/tuning/plant_evaluator.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
 namespace {
 
-MemberResult judge_member(TrackingProblem problem, const EnsembleMember& member,
-                          const control::ControlLaw& law, const HardGoals& goals,
-                          const WindTable& wind) {
+MemberResult evaluate_member(TrackingProblem problem, const EnsembleMember& member,
+                             const control::Controller& controller, const Constraints& goals,
+                             const WindTable& wind) {
   problem.plant = member.plant;
-  JudgedPlant plant(member.name, problem, goals, wind);
-  const PlantJudgement& judgement = plant.judge(law, false);
+  PlantEvaluator plant(member.name, problem, goals, wind);
+  const PlantEvaluation& plant_evaluation = plant.evaluate(controller, false);
   MemberResult result;
   result.name = member.name;
-  result.stable = judgement.stable && plant.stable_by_eigenvalues(law);
+  result.stable = plant_evaluation.stable && plant.stable_by_eigenvalues(controller);
   if (!result.stable) {
     const double none = std::numeric_limits<double>::quiet_NaN();
-    result.beam_rms = result.valve_effort = none;
+    result.boresight_rms = result.control_effort = none;
     result.sensitivity_peaks.fill(none);
-    result.worst_goal_ratio = std::numeric_limits<double>::infinity();
+    result.worst_constraint = std::numeric_limits<double>::infinity();
     return result;
   }
-  const control::LoopEvaluation& evaluation = judgement.evaluation;
-  result.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
-  result.valve_effort = std::sqrt(evaluation.effort_variance);
+  const control::LoopEvaluation& evaluation = plant_evaluation.evaluation;
+  result.boresight_rms = std::sqrt(evaluation.boresight_variance()) / problem.gear_ratio;
+  result.control_effort = std::sqrt(evaluation.effort_variance);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     result.sensitivity_peaks[b] = evaluation.highest_peak(control::loop_breaks[b]);
   }
-  result.worst_goal_ratio = judgement.worst_ratio();
+  result.worst_constraint = plant_evaluation.worst_ratio();
   return result;
 }
 
@@ -74,7 +74,7 @@ std::vector<EnsembleMember> reference_ensemble(const TrackingProblem& problem, s
   constexpr double low_frequency = 0.95, high_frequency = 1.05;
   constexpr double soft = 0.8, stiff = 1.33;
   constexpr double low_leakage = 0.366 / 1.219;
-  constexpr double most_friction = 12.0;  // N m s/rad
+  constexpr double max_friction = 12.0;  // N m s/rad
   std::vector<EnsembleMember> members{{"nominal", nominal}};
   const auto add = [&](std::string name, double frequency, double stiffness, double leakage,
                        double friction) {
@@ -91,30 +91,33 @@ std::vector<EnsembleMember> reference_ensemble(const TrackingProblem& problem, s
   add("oil stiffness x 0.8", 1.0, soft, 1.0, as_it_is);
   add("oil stiffness x 1.33", 1.0, stiff, 1.0, as_it_is);
   add("low leakage", 1.0, 1.0, low_leakage, as_it_is);
-  constexpr std::size_t draws = 24;
+  constexpr std::size_t random_samples = 24;
   std::mt19937_64 generator(seed);
-  const auto frequency = stratified(draws, generator), stiffness = stratified(draws, generator),
-             leakage = stratified(draws, generator), friction = stratified(draws, generator);
-  for (std::size_t i = 0; i < draws; ++i) {
+  const auto frequency = stratified(random_samples, generator),
+             stiffness = stratified(random_samples, generator),
+             leakage = stratified(random_samples, generator),
+             friction = stratified(random_samples, generator);
+  for (std::size_t i = 0; i < random_samples; ++i) {
     const double f = low_frequency + (high_frequency - low_frequency) * frequency[i];
     const double k = soft + (stiff - soft) * stiffness[i];
     const double l = low_leakage + (1.0 - low_leakage) * leakage[i];
-    const double b = most_friction * friction[i];
+    const double b = max_friction * friction[i];
     add(fmt::format("f x {:.3f}, K x {:.3f}, leakage x {:.3f}, friction {:.2f}", f, k, l, b), f, k,
         l, b);
   }
   return members;
 }
 
-EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
-                     const control::ControlLaw& law, const HardGoals& goals, unsigned threads) {
-  if (members.empty()) throw InvalidInput("judge: expected at least one member, found none");
-  control::validate(law);
+EnsembleResult evaluate(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
+                        const control::Controller& controller, const Constraints& goals,
+                        unsigned threads) {
+  if (members.empty()) throw InvalidInput("evaluate: expected at least one member, found none");
+  control::validate(controller);
   EnsembleResult result;
   result.members.resize(members.size());
   const WindTable wind(problem);
   numerics::for_each_index(members.size(), threads, [&](std::size_t i) {
-    result.members[i] = judge_member(problem, members[i], law, goals, wind);
+    result.members[i] = evaluate_member(problem, members[i], controller, goals, wind);
   });
 
   // A goal met to the last digit by the tuner is met.
@@ -122,20 +125,21 @@ EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleM
   std::vector<double> rms;
   for (std::size_t i = 0; i < members.size(); ++i) {
     const MemberResult& member = result.members[i];
-    const double farthest = result.members[result.worst].worst_goal_ratio;
-    if (member.worst_goal_ratio > farthest * (1.0 + rounding)) result.worst = i;
-    if (member.worst_goal_ratio <= 1.0 + rounding) ++result.within_goals;
-    if (member.stable) rms.push_back(member.beam_rms);
+    const double farthest = result.members[result.worst].worst_constraint;
+    if (member.worst_constraint > farthest * (1.0 + rounding)) result.worst = i;
+    if (member.worst_constraint <= 1.0 + rounding) ++result.within_constraints;
+    if (member.stable) rms.push_back(member.boresight_rms);
   }
   result.stable = static_cast<int>(rms.size());
-  result.least_rms = result.median_rms = result.high_rms = result.largest_rms =
+  result.min_rms = result.median_rms = result.high_rms = result.largest_rms =
       std::numeric_limits<double>::quiet_NaN();
   if (rms.empty()) return result;
   std::ranges::sort(rms);
-  const auto quantile = [&](double share) {
-    return rms[static_cast<std::size_t>(std::lround(share * static_cast<double>(rms.size() - 1)))];
+  const auto quantile = [&](double fraction) {
+    return rms[static_cast<std::size_t>(
+        std::lround(fraction * static_cast<double>(rms.size() - 1)))];
   };
-  result.least_rms = rms.front();
+  result.min_rms = rms.front();
   result.median_rms = quantile(0.5);
   result.high_rms = quantile(0.95);
   result.largest_rms = rms.back();
@@ -146,7 +150,7 @@ double rms_over_members(const EnsembleResult& ensemble) {
   double sum = 0.0;
   for (const auto& member : ensemble.members) {
     if (!member.stable) return std::numeric_limits<double>::infinity();
-    sum += member.beam_rms * member.beam_rms;
+    sum += member.boresight_rms * member.boresight_rms;
   }
   return std::sqrt(sum / static_cast<double>(ensemble.members.size()));
 }

@@ -23,19 +23,19 @@ std::vector<EnsembleMember> reference_ensemble(const TrackingProblem& problem, s
 struct MemberResult {
   std::string name;
   bool stable = false;                        // by eigenvalues
-  double beam_rms = 0.0;                      // NaN if unstable, like all below
-  double valve_effort = 0.0;                  // rad/s
+  double boresight_rms = 0.0;                 // NaN if unstable, like all below
+  double control_effort = 0.0;                // rad/s
   std::array<double, 3> sensitivity_peaks{};  // order of control::loop_breaks
-  double worst_goal_ratio = 0.0;              // quantity/limit; infinity if unstable
+  double worst_constraint = 0.0;              // quantity/limit; infinity if unstable
 };
 
 struct EnsembleResult {
   std::vector<MemberResult> members;  // in the order given
   int stable = 0;
-  int within_goals = 0;
+  int within_constraints = 0;
   /// Rms of the stable members: smallest, median, 95 % quantile, largest (rad at the sky). NaN if
   /// none is stable.
-  double least_rms = 0.0, median_rms = 0.0, high_rms = 0.0, largest_rms = 0.0;
+  double min_rms = 0.0, median_rms = 0.0, high_rms = 0.0, largest_rms = 0.0;
   /// The member with the worst normalised constraint (quantity/limit). Of members within 1e-6 of
   /// the worst the first, so that round-off does not decide.
   std::size_t worst = 0;
@@ -44,8 +44,9 @@ struct EnsembleResult {
 /// Evaluates a controller with fixed gains on every member instead of the problem's plant. The
 /// result does not depend on the number of threads. O(members x (grid + states^3)).
 /// @throws InvalidInput without members, and as control::validate.
-EnsembleResult judge(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
-                     const control::ControlLaw& law, const HardGoals& goals, unsigned threads);
+EnsembleResult evaluate(const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
+                        const control::Controller& controller, const Constraints& goals,
+                        unsigned threads);
 
 /// Root of the mean square of the members' rms (rad at the sky), by which proposals and motors are
 /// compared. Infinite if one member is unstable.

@@ -46,8 +46,8 @@ std::vector<double> stratified(std::size_t count, std::uint64_t state) {
   return numbers;
 }
 
-double between(const Ends& ends, double share) {
-  return ends.lower + share * (ends.upper - ends.lower);
+double between(const Ends& ends, double fraction) {
+  return ends.lower + fraction * (ends.upper - ends.lower);
 }
 
 }  // namespace
@@ -80,16 +80,16 @@ std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t 
   corner.leakage_rate = ranges.leakage_rate.lower;
   add(fmt::format("leakage rate {:.4g} 1/s", corner.leakage_rate), corner);
 
-  const std::size_t draws = mission.uncertainty.draws;
-  std::array<std::vector<double>, 4> shares;
-  for (std::size_t i = 0; i < shares.size(); ++i) {
-    shares.at(i) = stratified(draws, numerics::splitmix64(seed, i));
+  const std::size_t random_samples = mission.uncertainty.random_samples;
+  std::array<std::vector<double>, 4> fractions;
+  for (std::size_t i = 0; i < fractions.size(); ++i) {
+    fractions.at(i) = stratified(random_samples, numerics::splitmix64(seed, i));
   }
-  for (std::size_t i = 0; i < draws; ++i) {
-    add(fmt::format("draw {}", i + 1),
-        {between(ranges.structure_frequency, shares[0][i]),
-         between(ranges.oil_stiffness, shares[1][i]), between(ranges.leakage_rate, shares[2][i]),
-         between(ranges.viscous_friction, shares[3][i])});
+  for (std::size_t i = 0; i < random_samples; ++i) {
+    add(fmt::format("sample {}", i + 1), {between(ranges.structure_frequency, fractions[0][i]),
+                                          between(ranges.oil_stiffness, fractions[1][i]),
+                                          between(ranges.leakage_rate, fractions[2][i]),
+                                          between(ranges.viscous_friction, fractions[3][i])});
   }
   return members;
 }

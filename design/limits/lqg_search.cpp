@@ -20,7 +20,7 @@ constexpr double reserve = 1e-3;
 // Of the logarithm of the command weight: finer changes the rms by less than 1e-3.
 constexpr double weight_tolerance = 0.01;
 constexpr double weight_step = 0.8;
-constexpr int most_command_weights = 30;
+constexpr int max_command_weights = 30;
 constexpr int most_compass_points = 40;
 
 // The plant with an input and an output for each spring: an error of the deflection that it feels,
@@ -134,15 +134,15 @@ class Search {
         threads_(threads),
         terms_(unit_terms(model)) {
     // Both terms of the cost are of one size six steps above when the effort is what is allowed.
-    const double slack = model.judge(weighted_lqg(model, {.command_weight = 1.0})).beam_rms;
-    first_weight_ = 2.0 * std::log(slack / goals.valve_effort) - 6.0;
+    const double slack = model.evaluate(weighted_lqg(model, {.command_weight = 1.0})).boresight_rms;
+    first_weight_ = 2.0 * std::log(slack / goals.control_effort) - 6.0;
     spring_unit_ = slack * slack * model.problem().sample_time;
-    result_.beam_rms = infinity;
+    result_.boresight_rms = infinity;
   }
 
   // White noise of the effort that is allowed.
   double input_unit() const {
-    return goals_.valve_effort * goals_.valve_effort * model_.problem().sample_time;
+    return goals_.control_effort * goals_.control_effort * model_.problem().sample_time;
   }
   double spring_unit() const { return spring_unit_; }
   // The same deflection on the oil spring, as torque.
@@ -154,17 +154,17 @@ class Search {
   // The least rms with these weights and the least command weight that keeps the goals; infinite
   // if none does. Keeps the record.
   double rms_at(LqgWeights weights) {
-    Trial kept = least_weight(weights);
+    Trial kept = min_weight(weights);
     if (kept.excess > 0.0) return infinity;
     // One plant's goals have no gaps worth the time: the next search begins about here.
     if (plants_.size() == 1) first_weight_ = kept.log_weight - weight_step;
     const double rms = largest_rms(kept.controller);
-    if (rms < result_.beam_rms) {
+    if (rms < result_.boresight_rms) {
       weights.command_weight = std::exp(kept.log_weight);
       result_.found = true;
       result_.weights = weights;
       result_.controller = std::move(kept.controller);
-      result_.beam_rms = rms;
+      result_.boresight_rms = rms;
     }
     return rms;
   }
@@ -172,7 +172,7 @@ class Search {
   const LqgSearchResult& result() const { return result_; }
 
  private:
-  Trial least_weight(const LqgWeights& weights) {
+  Trial min_weight(const LqgWeights& weights) {
     control::SampledLqgProblem problem = believed(model_, terms_, weights);
     const double own = problem.r(0, 0);
     const control::StateEstimator estimator = control::state_estimator(problem);
@@ -182,7 +182,7 @@ class Search {
     // Upwards from below: goals may be kept again at much larger weights with a gap between.
     double next = first_weight_;
     for (int i = 0;
-         i < most_command_weights && above.log_weight - below.log_weight > weight_tolerance; ++i) {
+         i < max_command_weights && above.log_weight - below.log_weight > weight_tolerance; ++i) {
       Trial trial;
       trial.log_weight = next;
       problem.r(0, 0) = own + std::exp(next);
@@ -197,9 +197,9 @@ class Search {
         next = below.log_weight + weight_step;
       } else {
         // Towards the zero of the excess, off the ends so that the bracket shrinks from both.
-        const double share = below.excess / (below.excess - above.excess);
+        const double fraction = below.excess / (below.excess - above.excess);
         next = below.log_weight +
-               std::clamp(share, 0.15, 0.85) * (above.log_weight - below.log_weight);
+               std::clamp(fraction, 0.15, 0.85) * (above.log_weight - below.log_weight);
       }
     }
     return above;
@@ -218,17 +218,17 @@ class Search {
     std::vector<double> effort(plants_.size());
     numerics::for_each_index(plants_.size(), threads_, [&](std::size_t i) {
       const bool stable = plants_[i].spectral_radius(controller) < 1.0;
-      effort[i] = stable ? plants_[i].valve_effort(controller) : infinity;
+      effort[i] = stable ? plants_[i].control_effort(controller) : infinity;
     });
     const double largest = *std::ranges::max_element(effort);
-    return std::min(std::max(of_peak, std::log(largest / goals_.valve_effort) + 1e-6), unstable);
+    return std::min(std::max(of_peak, std::log(largest / goals_.control_effort) + 1e-6), unstable);
   }
 
   // Of a controller that is stable on all.
   double largest_rms(const plant::StateSpace& controller) const {
     std::vector<double> rms(plants_.size());
     numerics::for_each_index(rms.size(), threads_,
-                             [&](std::size_t i) { rms[i] = plants_[i].beam_rms(controller); });
+                             [&](std::size_t i) { rms[i] = plants_[i].boresight_rms(controller); });
     return *std::ranges::max_element(rms);
   }
 
@@ -243,11 +243,11 @@ class Search {
 };
 
 void check(const LqgSearchGoals& goals) {
-  if (!(goals.sensitivity_peak > 1.0) || !(goals.valve_effort > 0.0)) {
+  if (!(goals.sensitivity_peak > 1.0) || !(goals.control_effort > 0.0)) {
     throw InvalidInput(
         fmt::format("LQG search: expected a sensitivity_peak above 1 and a valve_effort above 0, "
                     "found {} and {} rad/s",
-                    goals.sensitivity_peak, goals.valve_effort));
+                    goals.sensitivity_peak, goals.control_effort));
   }
 }
 

@@ -9,7 +9,7 @@ namespace boresight::design {
 /// Constraints that an LQG design must meet on every plant.
 struct LqgSearchGoals {
   double sensitivity_peak = 2.0;  // largest |S| at the valve command
-  double valve_effort = 0.6;      // rad/s rms of the noise-driven command
+  double control_effort = 0.6;    // rad/s rms of the noise-driven command
 };
 
 /// Search variables: fictitious noise and additional costs of the LQG design.
@@ -36,7 +36,7 @@ struct LqgSearchResult {
   LqgWeights weights;
   plant::StateSpace controller;
   /// Boresight rms (rad of motor): the largest over the plants.
-  double beam_rms = 0.0;
+  double boresight_rms = 0.0;
   int candidates = 0;
 };
 

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/lqg/noise_effort_lqg.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -38,11 +38,11 @@ Eigen::ArrayXd peak_frequencies(const TrackingProblem& problem,
 
 class Study {
  public:
-  Study(const TrackingProblem& problem, const HardGoals& goals,
+  Study(const TrackingProblem& problem, const Constraints& goals,
         const std::vector<EnsembleMember>& members, const PointingLimitOptions& options)
       : threads_(options.threads),
         ratio_(problem.gear_ratio),
-        goals_{goals.sensitivity_peak[1], goals.valve_effort},
+        goals_{goals.sensitivity_peak[1], goals.control_effort},
         filter_(fit_wind_filter(problem)) {
     const Eigen::ArrayXd frequency = peak_frequencies(problem, members, options.sample_time);
     const auto add = [&](const std::string& name, const plant::AntennaPlant& plant) {
@@ -56,20 +56,20 @@ class Study {
   const LqgSearchGoals& goals() const { return goals_; }
   const plant::ShapingFilter& filter() const { return filter_; }
 
-  SampledDesign judge(plant::StateSpace controller) const {
+  SampledDesign evaluate(plant::StateSpace controller) const {
     SampledDesign design;
     const Eigen::ArrayXXcd response =
         SampledSetting::controller_response(controller, nominal().frequency());
     std::vector<SampledResult> results(settings_.size());
     numerics::for_each_index(results.size(), threads_, [&](std::size_t i) {
       const SampledSetting& setting = settings_[i];
-      const SampledJudgement found = setting.judge(controller);
+      const SampledEvaluation found = setting.evaluate(controller);
       results[i] = {setting.name(),
                     found.spectral_radius,
-                    found.beam_rms / ratio_,
+                    found.boresight_rms / ratio_,
                     found.wind_rms / ratio_,
                     found.noise_rms / ratio_,
-                    found.valve_effort,
+                    found.control_effort,
                     setting.highest_peak(response)};
     });
     design.controller = std::move(controller);
@@ -80,13 +80,13 @@ class Study {
     const bool all = design.nominal.stable() && !design.members.empty() &&
                      design.stable_members == static_cast<int>(design.members.size());
     design.worst_rms =
-        all ? std::ranges::max(results, {}, &SampledResult::beam_rms).beam_rms : nothing;
+        all ? std::ranges::max(results, {}, &SampledResult::boresight_rms).boresight_rms : nothing;
     return design;
   }
 
   std::optional<LimitedLqg> limited(const LqgSearchResult& found) const {
     if (!found.found) return std::nullopt;
-    return LimitedLqg{found.weights, judge(found.controller)};
+    return LimitedLqg{found.weights, evaluate(found.controller)};
   }
   std::optional<LimitedLqg> margin_limited() const {
     return limited(search_limited_lqg(nominal(), goals_));
@@ -106,13 +106,13 @@ class Study {
       problem.r(0, 0) = own + std::exp(log_weight);
       const auto controller =
           control::lqg_controller(problem, control::lq_regulator(problem), estimator);
-      return std::log(nominal().valve_effort(controller) / goals_.valve_effort);
+      return std::log(nominal().control_effort(controller) / goals_.control_effort);
     };
     problem.r(0, 0) = own + 1.0;
-    const double rms = nominal().beam_rms(
+    const double rms = nominal().boresight_rms(
         control::lqg_controller(problem, control::lq_regulator(problem), estimator));
     // Effort falls with some -0.4th power of the weight.
-    double place = 2.0 * std::log(rms / goals_.valve_effort), slope = -0.4;
+    double place = 2.0 * std::log(rms / goals_.control_effort), slope = -0.4;
     double value = excess(place);
     for (int i = 0; i < 8 && std::abs(value) > 0.01; ++i) {
       const double next = place + std::clamp(-value / slope, -4.0, 4.0);
@@ -143,19 +143,20 @@ class Study {
     // with some -0.43rd power of the weight.
     double log_weight = std::log(weight), slope = -0.43;
     control::NoiseEffortDesign best = at(weight);
-    double excess = std::log(nominal().valve_effort(best.controller) / goals_.valve_effort);
+    double excess = std::log(nominal().control_effort(best.controller) / goals_.control_effort);
     for (int i = 0; i < 5 && std::abs(excess) > 1e-6; ++i) {
       const double step = std::clamp(-excess / slope, -1.0, 1.0);
       best = at(std::exp(log_weight + step));
-      const double next = std::log(nominal().valve_effort(best.controller) / goals_.valve_effort);
+      const double next =
+          std::log(nominal().control_effort(best.controller) / goals_.control_effort);
       const double secant = (next - excess) / step;
       if (secant < -0.05) slope = secant;
       log_weight += step;
       excess = next;
     }
-    limit.unconstrained = judge(std::move(best.controller));
+    limit.unconstrained = evaluate(std::move(best.controller));
     std::ranges::sort(limit.bound.points, {}, &EffortBound::Point::weight);
-    limit.least_rms = limit.bound.least_rms(goals_.valve_effort);
+    limit.min_rms = limit.bound.min_rms(goals_.control_effort);
   }
 
   // The cost with next to no charge for the command, until less changes it by less than 1 %.
@@ -192,28 +193,29 @@ class Study {
   std::vector<SampledSetting> settings_;  // nominal, then the members
 };
 
-LawAgainstLimit against(const NamedLaw& named, const Study& study, const PointingLimit& limit) {
+ControllerAgainstLimit against(const DescribedController& named, const Study& study,
+                               const PointingLimit& limit) {
   const plant::StateSpace& plant = study.nominal().problem().plant;
-  LawAgainstLimit result;
+  ControllerAgainstLimit result;
   result.name = named.name;
   result.design =
-      study.judge(control::sampled_loop(plant, named.law, limit.sample_time).controller);
+      study.evaluate(control::sampled_loop(plant, named.controller, limit.sample_time).controller);
   const SampledResult& nominal = result.design.nominal;
   if (!nominal.stable()) return result;
-  result.least_rms = limit.bound.least_rms(nominal.valve_effort);
+  result.min_rms = limit.bound.min_rms(nominal.control_effort);
   const auto ratio = [](double mine, double other) {
     return other > 0.0 && std::isfinite(mine / other) ? std::optional(mine / other) : std::nullopt;
   };
-  result.to_least = ratio(nominal.beam_rms, result.least_rms);
-  result.to_encoder_held = ratio(nominal.beam_rms, limit.encoder_held_rms);
-  result.to_full_information = ratio(nominal.beam_rms, limit.full_information_rms);
+  result.to_min = ratio(nominal.boresight_rms, result.min_rms);
+  result.to_flexure = ratio(nominal.boresight_rms, limit.flexure_rms);
+  result.to_full_information = ratio(nominal.boresight_rms, limit.full_information_rms);
   if (limit.margin_limited) {
     result.to_margin_limited =
-        ratio(nominal.beam_rms, limit.margin_limited->design.nominal.beam_rms);
+        ratio(nominal.boresight_rms, limit.margin_limited->design.nominal.boresight_rms);
   }
   if (limit.robustified) {
     const SampledDesign& other = limit.robustified->design;
-    result.to_robustified = ratio(nominal.beam_rms, other.nominal.beam_rms);
+    result.to_robustified = ratio(nominal.boresight_rms, other.nominal.boresight_rms);
     result.worst_to_robustified = ratio(result.design.worst_rms, other.worst_rms);
   }
   return result;
@@ -221,45 +223,46 @@ LawAgainstLimit against(const NamedLaw& named, const Study& study, const Pointin
 
 }  // namespace
 
-double EffortBound::least_rms(double valve_effort) const {
+double EffortBound::min_rms(double control_effort) const {
   double best = 0.0;
   for (const Point& point : points) {
-    best = std::max(best, point.cost - point.weight * valve_effort * valve_effort);
+    best = std::max(best, point.cost - point.weight * control_effort * control_effort);
   }
   return std::sqrt(best);
 }
 
-double encoder_held_rms(const TrackingProblem& problem) {
+double flexure_rms(const TrackingProblem& problem) {
   const control::LoopEvaluator evaluator = make_evaluator(problem);
   const Eigen::ArrayXd& frequency = evaluator.response().frequency;
   const auto structure = plant::structure_response(problem.plant.structure, frequency);
-  return std::sqrt((evaluator.integration_weight() * structure.beam_per_wind.abs2() *
+  return std::sqrt((evaluator.integration_weight() * structure.boresight_per_wind.abs2() *
                     motor_wind_spectrum(problem, frequency))
                        .sum()) /
          problem.gear_ratio;
 }
 
-PointingLimit pointing_limit(const TrackingProblem& problem, const HardGoals& goals,
+PointingLimit pointing_limit(const TrackingProblem& problem, const Constraints& goals,
                              const std::vector<EnsembleMember>& members,
-                             const std::vector<NamedLaw>& laws,
+                             const std::vector<DescribedController>& controllers,
                              const PointingLimitOptions& options) {
   if (!(options.sample_time > 0.0) || !std::isfinite(options.sample_time)) {
     throw InvalidInput(fmt::format("pointing_limit: expected a sample time above 0, found {} s",
                                    options.sample_time));
   }
-  for (const NamedLaw& named : laws) control::validate(named.law);
+  for (const DescribedController& named : controllers) control::validate(named.controller);
   const Study study(problem, goals, members, options);
   PointingLimit limit;
   limit.sample_time = limit.computation_delay = options.sample_time;
-  limit.effort_limit = study.goals().valve_effort;
+  limit.effort_limit = study.goals().control_effort;
   limit.peak_limit = study.goals().sensitivity_peak;
   limit.wind_filter_log_error = study.filter().worst_log_error;
   study.bound(limit);
   limit.margin_limited = study.margin_limited();
   limit.robustified = study.robustified();
   limit.full_information_rms = study.full_information_rms();
-  limit.encoder_held_rms = encoder_held_rms(problem);
-  for (const NamedLaw& named : laws) limit.laws.push_back(against(named, study, limit));
+  limit.flexure_rms = flexure_rms(problem);
+  for (const DescribedController& named : controllers)
+    limit.controllers.push_back(against(named, study, limit));
   return limit;
 }
 

@@ -13,9 +13,9 @@ namespace boresight::design {
 struct SampledResult {
   std::string plant;
   double spectral_radius = 0.0;  // largest magnitude of a closed-loop eigenvalue
-  double beam_rms = 0.0;
+  double boresight_rms = 0.0;
   double wind_rms = 0.0, noise_rms = 0.0;  // its parts, on the nominal plant only
-  double valve_effort = 0.0;               // rad/s rms of the command from the sensors' noise
+  double control_effort = 0.0;             // rad/s rms of the command from the sensors' noise
   SampledPeak peak;                        // Ms at the valve command
 
   bool stable() const { return spectral_radius < 1.0; }
@@ -48,17 +48,16 @@ struct EffortBound {
   std::vector<Point> points;  // in order of weight
 
   /// The largest bound of the points as rms (rad at the sky); 0 where no bound is positive.
-  double least_rms(double valve_effort) const;
+  double min_rms(double control_effort) const;
 };
 
 /// A controller in its sampled form compared with the limits.
-struct LawAgainstLimit {
+struct ControllerAgainstLimit {
   std::string name;
   SampledDesign design;
-  double least_rms = 0.0;  // of any controller of the same effort
+  double min_rms = 0.0;  // of any controller of the same effort
   // Nominal boresight rms of the controller over that of each; empty where there is none.
-  std::optional<double> to_least, to_margin_limited, to_robustified, to_encoder_held,
-      to_full_information;
+  std::optional<double> to_min, to_margin_limited, to_robustified, to_flexure, to_full_information;
   /// The controller's worst rms over that of the robustified LQG.
   std::optional<double> worst_to_robustified;
 };
@@ -75,7 +74,7 @@ struct PointingLimit {
   double wind_filter_log_error = 0.0;
 
   EffortBound bound;
-  double least_rms = 0.0;  // lower bound at the effort limit
+  double min_rms = 0.0;  // lower bound at the effort limit
   /// The controller that reaches the bound, constrained by the effort only, not by margins.
   SampledDesign unconstrained;
   /// Benchmarks, not bounds; none where no weights meet the constraints.
@@ -88,14 +87,14 @@ struct PointingLimit {
   /// Rms of boresight less encoder angle in the wind with the encoder at rest: flexure beyond the
   /// encoder. It is the floor of every loop that only keeps its encoder at rest. It is not a bound:
   /// a loop can move the encoder against its estimate of the flexure.
-  double encoder_held_rms = 0.0;
+  double flexure_rms = 0.0;
 
-  std::vector<LawAgainstLimit> laws;
+  std::vector<ControllerAgainstLimit> controllers;
 };
 
-struct NamedLaw {
+struct DescribedController {
   std::string name;
-  control::ControlLaw law;
+  control::Controller controller;
 };
 
 struct PointingLimitOptions {
@@ -111,12 +110,12 @@ struct PointingLimitOptions {
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
 /// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable
 /// or observable.
-PointingLimit pointing_limit(const TrackingProblem& problem, const HardGoals& goals,
+PointingLimit pointing_limit(const TrackingProblem& problem, const Constraints& goals,
                              const std::vector<EnsembleMember>& members,
-                             const std::vector<NamedLaw>& laws,
+                             const std::vector<DescribedController>& controllers,
                              const PointingLimitOptions& options = {});
 
-/// See PointingLimit::encoder_held_rms.
-double encoder_held_rms(const TrackingProblem& problem);
+/// See PointingLimit::flexure_rms.
+double flexure_rms(const TrackingProblem& problem);
 
 }  // namespace boresight::design

@@ -56,7 +56,7 @@ Eigen::ArrayXXcd responses(const plant::StateSpace& system, const Eigen::ArrayXd
 
 // Share of the wind's torque that the torque's noise is where none is stated: laws that feed torque
 // back hear none then, and an LQG that hears so little is as good as without.
-constexpr double least_torque_noise = 1e-3;
+constexpr double min_torque_noise = 1e-3;
 
 double wind_torque_rms(const plant::ShapingFilter& wind) {
   return control::h2_norm(plant::to_state_space(wind, "wind_torque")).value;
@@ -78,7 +78,7 @@ SampledSetting::SampledSetting(std::string name, const plant::AntennaPlant& plan
   problem_.sample_time = problem_.computation_delay = sample_time;
   problem_.disturbance_intensity = {{"wind_white_noise", 1.0}};
   const double torque_rms =
-      noise.torque_rms == 0.0 ? least_torque_noise * wind_torque_rms(wind) : noise.torque_rms;
+      noise.torque_rms == 0.0 ? min_torque_noise * wind_torque_rms(wind) : noise.torque_rms;
   for (const auto& [sensor, rms] :
        {std::pair("tachometer", noise.tachometer_rms), std::pair("encoder", noise.encoder_rms),
         std::pair("motor_torque", torque_rms)}) {
@@ -106,20 +106,20 @@ struct SampledSetting::ClosedLoop {
 };
 
 SampledSetting::ClosedLoop SampledSetting::close(const plant::StateSpace& controller) const {
-  const plant::StateSpace law = from_sensors(controller);
+  const plant::StateSpace all_sensors = from_sensors(controller);
   const plant::StateSpace& plant = sampled_.plant;
-  const Eigen::Index n = plant.a.rows(), m = law.a.rows();
+  const Eigen::Index n = plant.a.rows(), m = all_sensors.a.rows();
   ClosedLoop loop;
-  loop.direct = law.d;
+  loop.direct = all_sensors.d;
   loop.command.resize(n + m);
-  loop.command << law.d * plant.c, law.c;
+  loop.command << all_sensors.d * plant.c, all_sensors.c;
   loop.a = Eigen::MatrixXd::Zero(n + m, n + m);
   loop.a.topLeftCorner(n, n) = plant.a;
   loop.a.topRows(n) += plant.b * loop.command;
-  loop.a.bottomLeftCorner(m, n) = law.b * plant.c;
-  loop.a.bottomRightCorner(m, m) = law.a;
+  loop.a.bottomLeftCorner(m, n) = all_sensors.b * plant.c;
+  loop.a.bottomRightCorner(m, m) = all_sensors.a;
   loop.noise.resize(n + m, plant.c.rows());
-  loop.noise << plant.b * law.d, law.b;
+  loop.noise << plant.b * all_sensors.d, all_sensors.b;
   return loop;
 }
 
@@ -140,8 +140,8 @@ Eigen::MatrixXd SampledSetting::noise_jolts(const ClosedLoop& loop) const {
 
 // Over all time, but for what the wind does within a sample. The command's own noise is
 // independent of the states that it meets.
-double SampledSetting::beam_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
-                                     double direct_variance) const {
+double SampledSetting::boresight_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
+                                          double direct_variance) const {
   const Eigen::Index n = sampled_.plant.a.rows();
   const Eigen::VectorXd to_command = covariance * loop.command.transpose();
   return sampled_.q.cwiseProduct(covariance.topLeftCorner(n, n)).sum() +
@@ -149,32 +149,33 @@ double SampledSetting::beam_variance(const ClosedLoop& loop, const Eigen::Matrix
          sampled_.r(0, 0) * (loop.command.dot(to_command) + direct_variance);
 }
 
-SampledJudgement SampledSetting::judge(const plant::StateSpace& controller) const {
+SampledEvaluation SampledSetting::evaluate(const plant::StateSpace& controller) const {
   const ClosedLoop loop = close(controller);
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-  SampledJudgement result{0.0, nothing, nothing, nothing, nothing};
+  SampledEvaluation result{0.0, nothing, nothing, nothing, nothing};
   result.spectral_radius = numerics::eigenvalues(loop.a).cwiseAbs().maxCoeff();
   if (!(result.spectral_radius < 1.0 - 1e-12)) return result;
   const Eigen::MatrixXd wind = steady_covariance(loop.a, wind_jolts(loop));
   const Eigen::MatrixXd noise = steady_covariance(loop.a, noise_jolts(loop));
   const double direct =
       (loop.direct * sampled_.measurement_covariance * loop.direct.transpose())(0, 0);
-  result.wind_rms = std::sqrt(beam_variance(loop, wind, 0.0) + sampled_.unavoidable_cost);
-  result.noise_rms = std::sqrt(beam_variance(loop, noise, direct));
-  result.beam_rms = std::hypot(result.wind_rms, result.noise_rms);
-  result.valve_effort = std::sqrt((loop.command * noise * loop.command.transpose())(0, 0) + direct);
+  result.wind_rms = std::sqrt(boresight_variance(loop, wind, 0.0) + sampled_.unavoidable_cost);
+  result.noise_rms = std::sqrt(boresight_variance(loop, noise, direct));
+  result.boresight_rms = std::hypot(result.wind_rms, result.noise_rms);
+  result.control_effort =
+      std::sqrt((loop.command * noise * loop.command.transpose())(0, 0) + direct);
   return result;
 }
 
-double SampledSetting::beam_rms(const plant::StateSpace& controller) const {
+double SampledSetting::boresight_rms(const plant::StateSpace& controller) const {
   const ClosedLoop loop = close(controller);
   const Eigen::MatrixXd both = steady_covariance(loop.a, wind_jolts(loop) + noise_jolts(loop));
   const double direct =
       (loop.direct * sampled_.measurement_covariance * loop.direct.transpose())(0, 0);
-  return std::sqrt(beam_variance(loop, both, direct) + sampled_.unavoidable_cost);
+  return std::sqrt(boresight_variance(loop, both, direct) + sampled_.unavoidable_cost);
 }
 
-double SampledSetting::valve_effort(const plant::StateSpace& controller) const {
+double SampledSetting::control_effort(const plant::StateSpace& controller) const {
   const ClosedLoop loop = close(controller);
   const Eigen::MatrixXd noise = steady_covariance(loop.a, noise_jolts(loop));
   return std::sqrt((loop.command * noise * loop.command.transpose())(0, 0) +

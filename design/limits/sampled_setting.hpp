@@ -12,14 +12,14 @@
 namespace boresight::design {
 
 /// Results of a sampled controller on one plant. Rms in rad of motor over all time.
-struct SampledJudgement {
+struct SampledEvaluation {
   /// Largest magnitude of a closed-loop eigenvalue: stable below 1. Otherwise rms and effort are
   /// NaN.
   double spectral_radius = 0.0;
   double wind_rms = 0.0;
   double noise_rms = 0.0;
-  double beam_rms = 0.0;
-  double valve_effort = 0.0;  // rad/s rms of the command from the sensors' noise
+  double boresight_rms = 0.0;
+  double control_effort = 0.0;  // rad/s rms of the command from the sensors' noise
 };
 
 /// A local maximum of |S| = 1/|1 + L| at the valve command.
@@ -50,10 +50,10 @@ class SampledSetting {
   const Eigen::ArrayXd& frequency() const { return frequency_; }
 
   double spectral_radius(const plant::StateSpace& controller) const;
-  SampledJudgement judge(const plant::StateSpace& controller) const;
+  SampledEvaluation evaluate(const plant::StateSpace& controller) const;
   /// Parts of the same for a controller known to be stable here, at half the cost or less.
-  double beam_rms(const plant::StateSpace& controller) const;
-  double valve_effort(const plant::StateSpace& controller) const;
+  double boresight_rms(const plant::StateSpace& controller) const;
+  double control_effort(const plant::StateSpace& controller) const;
 
   /// Response of a controller at `frequency`, one column per measured signal (tachometer, encoder,
   /// motor_torque): the same for every setting with these frequencies.
@@ -67,8 +67,8 @@ class SampledSetting {
   ClosedLoop close(const plant::StateSpace& controller) const;
   Eigen::MatrixXd wind_jolts(const ClosedLoop& loop) const;
   Eigen::MatrixXd noise_jolts(const ClosedLoop& loop) const;
-  double beam_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
-                       double direct_variance) const;
+  double boresight_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
+                            double direct_variance) const;
 
   std::string name_;
   plant::AntennaPlant plant_;

@@ -6,21 +6,21 @@
 namespace boresight::design {
 
 std::optional<std::size_t> least_of(const std::vector<double>& values) {
-  std::optional<std::size_t> least;
+  std::optional<std::size_t> minimum;
   for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i]) && (!least || values[i] < values[*least])) least = i;
+    if (std::isfinite(values[i]) && (!minimum || values[i] < values[*minimum])) minimum = i;
   }
-  return least;
+  return minimum;
 }
 
 FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>& values,
-                     double share) {
+                     double fraction) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto least = least_of(values);
-  if (!least) return {nan, nan};
-  const double level = values[*least] * (1.0 + share);
+  const auto minimum = least_of(values);
+  if (!minimum) return {nan, nan};
+  const double level = values[*minimum] * (1.0 + fraction);
   const auto reach = [&](auto next) {
-    std::size_t i = *least;
+    std::size_t i = *minimum;
     for (auto other = next(i); other; other = next(i)) {
       if (!std::isfinite(values[*other])) break;
       if (values[*other] > level) {

@@ -14,10 +14,10 @@ struct FlatRange {
 /// Index of the least value; the first of equal ones, none where all are NaN.
 std::optional<std::size_t> least_of(const std::vector<double>& values);
 
-/// The range of the axis around the least value within the fraction `share` of it (0.05: 5 %). NaN
-/// values are gaps that end the range; the result is NaN where all values are. `values`: one per
-/// point of `axis`, which must rise.
+/// The range of the axis around the least value within the fraction `fraction` of it (0.05: 5 %).
+/// NaN values are gaps that end the range; the result is NaN where all values are. `values`: one
+/// per point of `axis`, which must rise.
 FlatRange flat_range(const std::vector<double>& axis, const std::vector<double>& values,
-                     double share);
+                     double fraction);
 
 }  // namespace boresight::design

@@ -13,8 +13,8 @@ namespace boresight::design {
 
 /// The best controller of one structure at one inertia, and the attempts to improve it.
 struct MatchingCell {
-  std::vector<HeldLaw> history;  // each better than the one before
-  std::vector<std::size_t> carried{0};
+  std::vector<FixedController> history;  // each better than the one before
+  std::vector<std::size_t> active{0};
   unsigned version = 0;
   std::vector<unsigned> tried;      // versions of: left, right, the structures, left and right
   std::vector<double> start_costs;  // final ln rms of each random start
@@ -22,7 +22,7 @@ struct MatchingCell {
   int warm_starts = 0;
   bool searched = false;
 
-  const HeldLaw* best() const { return history.empty() ? nullptr : &history.back(); }
+  const FixedController* best() const { return history.empty() ? nullptr : &history.back(); }
 };
 
 /// State of a cell between two rounds, as its neighbours read it.
@@ -51,20 +51,20 @@ class MatchingColumn {
   bool improve(std::size_t structure, const SeenCell* left, const SeenCell* right);
 
   /// The best controller found that is stable by eigenvalues on every plant.
-  MatchedLaw finish(std::size_t structure);
+  MatchedController finish(std::size_t structure);
 
  private:
   bool stopped() const { return search_.stop && search_.stop(); }
-  control::ControlLaw law_of(std::size_t structure) const;
-  bool stable_by_eigenvalues(const control::ControlLaw& law) const;
-  FeasibleSearch search_on(std::size_t structure, const CarriedPlants& carried);
-  void random_starts(std::size_t structure, const std::vector<std::size_t>& carried, int count,
+  control::Controller controller_of(std::size_t structure) const;
+  bool stable_by_eigenvalues(const control::Controller& controller) const;
+  FeasibleSearch search_on(std::size_t structure, const ActiveScenarios& active);
+  void random_starts(std::size_t structure, const std::vector<std::size_t>& active, int count,
                      std::mt19937_64& generator);
   std::optional<double> attempt(std::size_t structure, const std::vector<double>& point);
-  bool clearly_better(const EnsembleSearch& ensemble, const HeldLaw& one,
-                      const HeldLaw& other) const;
-  std::vector<std::size_t> worth_carrying(const std::vector<std::size_t>& carried,
-                                          const control::ControlLaw& law);
+  bool clearly_better(const EnsembleSearch& ensemble, const FixedController& one,
+                      const FixedController& other) const;
+  std::vector<std::size_t> worth_carrying(const std::vector<std::size_t>& active,
+                                          const control::Controller& controller);
 
   const MatchingTask& task_;
   const std::vector<std::vector<std::size_t>>& parts_;
@@ -72,7 +72,7 @@ class MatchingColumn {
   std::uint64_t seed_;
   double tolerance_;
   TuningOptions search_;
-  std::vector<JudgedPlant> plants_;
+  std::vector<PlantEvaluator> plants_;
   std::vector<MatchingCell> cells_;
   long evaluations_ = 0;
 };

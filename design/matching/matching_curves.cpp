@@ -67,9 +67,9 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
 
   MatchingCurves result;
   result.tolerance = options.tolerance;
-  const std::size_t most_rounds = columns + 10;
+  const std::size_t max_rounds = columns + 10;
   std::vector<std::vector<SeenCell>> seen(columns, std::vector<SeenCell>(structures));
-  for (std::size_t round = 0; round < most_rounds && !result.settled; ++round) {
+  for (std::size_t round = 0; round < max_rounds && !result.settled; ++round) {
     if (options.stop && options.stop()) break;
     for (std::size_t i = 0; i < columns; ++i) {
       for (std::size_t s = 0; s < structures; ++s) seen[i][s] = made[i]->seen(s);
@@ -91,11 +91,11 @@ MatchingCurves match_motors(const MatchingTask& task, const MatchingOptions& opt
   if (result.interrupted) result.settled = false;
 
   for (const auto& structure : task.structures) {
-    result.curves.push_back({structure, std::vector<MatchedLaw>(columns)});
+    result.curves.push_back({structure, std::vector<MatchedController>(columns)});
   }
   numerics::for_each_index(columns, options.threads, [&](std::size_t i) {
     for (std::size_t s = 0; s < structures; ++s) {
-      result.curves[s].laws[i] = made[i]->finish(s);
+      result.curves[s].controllers[i] = made[i]->finish(s);
       counter.step();
     }
   });

@@ -18,8 +18,8 @@ struct MatchingTask {
   /// Values of Drive::motor_inertia (kg m2), rising. That of each member changes in proportion.
   std::vector<double> motor_inertia;
   std::vector<control::LoopStructure> structures;
-  HardGoals goals;
-  SoftGoal soft_goal;
+  Constraints goals;
+  Objective objective;
 };
 
 struct MatchingOptions {
@@ -37,16 +37,16 @@ struct MatchingOptions {
 };
 
 /// The best controller found for one structure and motor inertia.
-struct MatchedLaw {
+struct MatchedController {
   TuningStatus status = TuningStatus::unstable;
-  control::ControlLaw law;             // without gains where status is unstable
+  control::Controller controller;      // without gains where status is unstable
   control::LoopEvaluation evaluation;  // on the problem's plant
   double soft_rms = 0.0;               // rad of motor
-  double worst_goal_ratio = 0.0;       // over all plants; infinity where unstable
+  double worst_constraint = 0.0;       // over all plants; infinity where unstable
   /// Constraints within 1e-4 of their limits, with their plants; without shadow prices.
-  std::vector<LimitingGoal> active_goals;
+  std::vector<ActiveConstraint> active_constraints;
   std::vector<std::string> gains_at_bound;
-  std::vector<std::string> carried_members;
+  std::vector<std::string> active_scenarios;
   int starts = 0;                    // random starts
   int starts_at_optimum = 0;         // of these, within 1 % of the best controller's rms
   int warm_starts = 0;               // from neighbours and structures that this one extends
@@ -56,7 +56,7 @@ struct MatchedLaw {
 
 struct MatchingCurve {
   control::LoopStructure structure;
-  std::vector<MatchedLaw> laws;  // one per motor inertia
+  std::vector<MatchedController> controllers;  // one per motor inertia
 };
 
 struct MatchingCurves {

@@ -10,12 +10,12 @@
 namespace boresight::design {
 namespace {
 
-std::string name_of(const LimitingGoal& goal) {
+std::string name_of(const ActiveConstraint& goal) {
   return fmt::format("{}{}", describe(goal.goal),
                      goal.member.empty() ? "" : fmt::format(" on {}", goal.member));
 }
 
-bool same(const LimitingGoal& one, const LimitingGoal& other) {
+bool same(const ActiveConstraint& one, const ActiveConstraint& other) {
   constexpr double apart = 1.15;
   const double x = one.goal.frequency, y = other.goal.frequency;
   return one.goal.kind == other.goal.kind && one.goal.loop_break == other.goal.loop_break &&
@@ -23,8 +23,8 @@ bool same(const LimitingGoal& one, const LimitingGoal& other) {
 }
 
 // A goal of the first that the second is not held by.
-const LimitingGoal* missing(const std::vector<LimitingGoal>& from,
-                            const std::vector<LimitingGoal>& in) {
+const ActiveConstraint* missing(const std::vector<ActiveConstraint>& from,
+                                const std::vector<ActiveConstraint>& in) {
   for (const auto& goal : from) {
     if (std::ranges::none_of(in, [&](const auto& other) { return same(goal, other); })) {
       return &goal;
@@ -34,9 +34,9 @@ const LimitingGoal* missing(const std::vector<LimitingGoal>& from,
 }
 
 // What changes between two laws; empty: nothing.
-std::string change_between(const MatchedLaw& one, const MatchedLaw& other) {
-  const LimitingGoal* gone = missing(one.active_goals, other.active_goals);
-  const LimitingGoal* come = missing(other.active_goals, one.active_goals);
+std::string change_between(const MatchedController& one, const MatchedController& other) {
+  const ActiveConstraint* gone = missing(one.active_constraints, other.active_constraints);
+  const ActiveConstraint* come = missing(other.active_constraints, one.active_constraints);
   if (gone != nullptr && come != nullptr) {
     return fmt::format("from {} to {}", name_of(*gone), name_of(*come));
   }
@@ -44,11 +44,11 @@ std::string change_between(const MatchedLaw& one, const MatchedLaw& other) {
   if (come != nullptr) return fmt::format("{} holds from here", name_of(*come));
   if (one.gains_at_bound != other.gains_at_bound) return "a gain reaches or leaves its bound";
   constexpr double step = 1.5;
-  for (std::size_t k = 0; k < one.law.gains.size(); ++k) {
-    const double ratio = one.law.gains[k] / other.law.gains[k];
+  for (std::size_t k = 0; k < one.controller.gains.size(); ++k) {
+    const double ratio = one.controller.gains[k] / other.controller.gains[k];
     if (ratio > step || ratio < 1.0 / step) {
       return fmt::format("another family: {} changes by a factor of {:.2g}",
-                         control::gain_descriptions(one.law.structure)[k].name, 1.0 / ratio);
+                         control::gain_descriptions(one.controller.structure)[k].name, 1.0 / ratio);
     }
   }
   return {};
@@ -58,21 +58,22 @@ std::string change_between(const MatchedLaw& one, const MatchedLaw& other) {
 
 CurveSmoothness smoothness(const MatchingCurve& curve, const std::vector<std::size_t>& points) {
   for (const std::size_t i : points) {
-    if (i >= curve.laws.size()) {
-      throw InvalidInput(
-          fmt::format("smoothness: expected points below {}, found {}", curve.laws.size(), i));
+    if (i >= curve.controllers.size()) {
+      throw InvalidInput(fmt::format("smoothness: expected points below {}, found {}",
+                                     curve.controllers.size(), i));
     }
   }
   CurveSmoothness result;
   std::vector<char> kinked(points.size(), 0);
   std::vector<double> cost(points.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const MatchedLaw& law = curve.laws[points[i]];
-    if (law.status == TuningStatus::optimal) cost[i] = std::log(law.soft_rms);
+    const MatchedController& controller = curve.controllers[points[i]];
+    if (controller.status == TuningStatus::optimal) cost[i] = std::log(controller.soft_rms);
     if (i + 1 == points.size()) break;
-    const MatchedLaw& next = curve.laws[points[i + 1]];
-    if (law.status != TuningStatus::optimal || next.status != TuningStatus::optimal) continue;
-    std::string change = change_between(law, next);
+    const MatchedController& next = curve.controllers[points[i + 1]];
+    if (controller.status != TuningStatus::optimal || next.status != TuningStatus::optimal)
+      continue;
+    std::string change = change_between(controller, next);
     if (change.empty()) continue;
     kinked[i] = 1;
     result.kinks.push_back({i, std::move(change)});

@@ -14,12 +14,13 @@ namespace boresight::design {
 /// variance of the loop from sensor noise, as computed by the evaluator.
 std::vector<double> budget_speeds(const TrackingProblem& problem,
                                   const control::LoopEvaluator& evaluator,
-                                  const control::ControlLaw& law, double noise_variance,
+                                  const control::Controller& controller, double noise_variance,
                                   const std::vector<PointingBudget>& budgets,
                                   const NonlinearEffect& effect);
 
 /// The same, with an evaluator made for the problem.
-std::vector<double> budget_speeds(const TrackingProblem& problem, const control::ControlLaw& law,
+std::vector<double> budget_speeds(const TrackingProblem& problem,
+                                  const control::Controller& controller,
                                   const std::vector<PointingBudget>& budgets,
                                   const NonlinearEffect& effect);
 

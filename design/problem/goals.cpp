@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/loops/loop_goals.hpp>
+#include <boresight/control/loops/loop_constraints.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -17,17 +17,17 @@ using control::LoopQuantity;
 
 void expect(bool met, std::string_view goal, std::string_view expected, double found) {
   if (met) return;
-  throw InvalidInput(fmt::format("hard goals: expected {} {}, found {:g}", goal, expected, found));
+  throw InvalidInput(fmt::format("constraints: expected {} {}, found {:g}", goal, expected, found));
 }
 
 void expect_positive(const std::optional<double>& limit, std::string_view goal) {
   if (limit) expect(*limit > 0.0 && std::isfinite(*limit), goal, "above 0 and finite", *limit);
 }
 
-GoalRatio of_variance(GoalKind kind, double variance,
-                      const std::array<double, control::most_gains>& log_gradient, double crest,
-                      double mean, double limit) {
-  GoalRatio goal;
+NormalisedConstraint of_variance(GoalKind kind, double variance,
+                                 const std::array<double, control::max_gains>& log_gradient,
+                                 double crest, double mean, double limit) {
+  NormalisedConstraint goal;
   goal.kind = kind;
   const double spread = crest * std::sqrt(variance);
   goal.ratio = (mean + spread) / limit;
@@ -40,9 +40,9 @@ GoalRatio of_variance(GoalKind kind, double variance,
 }
 
 // Of a quantity that must be at least its limit.
-GoalRatio at_least(GoalKind kind, LoopBreak loop_break, const LoopQuantity& quantity,
-                   double limit) {
-  GoalRatio goal;
+NormalisedConstraint at_least(GoalKind kind, LoopBreak loop_break, const LoopQuantity& quantity,
+                              double limit) {
+  NormalisedConstraint goal;
   goal.kind = kind;
   goal.loop_break = loop_break;
   goal.frequency = quantity.frequency;
@@ -53,13 +53,13 @@ GoalRatio at_least(GoalKind kind, LoopBreak loop_break, const LoopQuantity& quan
 
 }  // namespace
 
-bool HardGoals::ask_for_margins() const {
+bool Constraints::ask_for_margins() const {
   const auto given = [](const std::optional<double>& limit) { return limit.has_value(); };
   return bandwidth.has_value() || std::ranges::any_of(gain_margin, given) ||
          std::ranges::any_of(phase_margin, given);
 }
 
-void validate(const HardGoals& goals) {
+void validate(const Constraints& goals) {
   for (const double peak : goals.sensitivity_peak) {
     expect(peak > 1.0 && std::isfinite(peak), "a sensitivity peak", "above 1 and finite", peak);
   }
@@ -75,26 +75,26 @@ void validate(const HardGoals& goals) {
              *margin);
     }
   }
-  expect_positive(goals.valve_effort, "valve_effort");
+  expect_positive(goals.control_effort, "valve_effort");
   expect_positive(goals.bandwidth, "bandwidth");
   expect_positive(goals.gust_demand, "gust_demand");
   expect_positive(goals.gust_torque, "gust_torque");
   expect_positive(goals.crest_factor, "crest_factor");
 }
 
-std::string_view to_string(SoftGoalKind kind) {
+std::string_view to_string(ObjectiveKind kind) {
   static constexpr std::array names{"nominal", "expected", "worst_case", "quantile"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
 std::string_view to_string(GoalKind kind) {
   static constexpr std::array names{
-      "sensitivity peak", "noise-driven valve effort", "gain margin",          "phase margin",
-      "bandwidth",        "valve demand in gusts",     "motor torque in gusts"};
+      "sensitivity peak", "noise-driven control effort", "gain margin",          "phase margin",
+      "bandwidth",        "valve demand in gusts",       "motor torque in gusts"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
-std::string describe(const GoalRatio& goal) {
+std::string describe(const NormalisedConstraint& goal) {
   std::string text(to_string(goal.kind));
   if (goal.loop_break) text += fmt::format(" at {}", control::to_string(*goal.loop_break));
   if (goal.frequency > 0.0) {
@@ -103,16 +103,17 @@ std::string describe(const GoalRatio& goal) {
   return text;
 }
 
-void append_goal_ratios(const control::LoopEvaluation& evaluation, const HardGoals& goals,
-                        const MeanWindLoad& mean, std::vector<GoalRatio>& ratios) {
+void append_normalised_constraints(const control::LoopEvaluation& evaluation,
+                                   const Constraints& goals, const MeanWindLoad& mean,
+                                   std::vector<NormalisedConstraint>& ratios) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     for (const auto& peak : evaluation.peaks[b]) {
       ratios.push_back({GoalKind::sensitivity_peak, control::loop_breaks[b], peak.frequency,
                         peak.magnitude / goals.sensitivity_peak[b], peak.log_gradient});
     }
   }
-  ratios.push_back(of_variance(GoalKind::valve_effort, evaluation.effort_variance,
-                               evaluation.effort_log_gradient, 1.0, 0.0, goals.valve_effort));
+  ratios.push_back(of_variance(GoalKind::control_effort, evaluation.effort_variance,
+                               evaluation.effort_log_gradient, 1.0, 0.0, goals.control_effort));
   if (goals.gust_demand) {
     ratios.push_back(of_variance(GoalKind::gust_demand, evaluation.wind_demand_variance,
                                  evaluation.wind_demand_log_gradient, goals.crest_factor,
@@ -126,24 +127,24 @@ void append_goal_ratios(const control::LoopEvaluation& evaluation, const HardGoa
 }
 
 void append_margin_ratios(const control::LoopChannels& channels, double delay,
-                          const control::ControlLaw& law, const HardGoals& goals,
-                          std::vector<GoalRatio>& ratios) {
+                          const control::Controller& controller, const Constraints& goals,
+                          std::vector<NormalisedConstraint>& ratios) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const LoopBreak cut = control::loop_breaks[b];
     if (const auto& limit = goals.gain_margin[b]) {
-      for (const auto& margin : control::smallest_gain_margins(channels, delay, law, cut)) {
+      for (const auto& margin : control::smallest_gain_margins(channels, delay, controller, cut)) {
         ratios.push_back(at_least(GoalKind::gain_margin, cut, margin, *limit));
       }
     }
     if (const auto& limit = goals.phase_margin[b]) {
-      for (const auto& margin : control::smallest_phase_margins(channels, delay, law, cut)) {
+      for (const auto& margin : control::smallest_phase_margins(channels, delay, controller, cut)) {
         ratios.push_back(at_least(GoalKind::phase_margin, cut, margin, *limit));
       }
     }
   }
   if (goals.bandwidth) {
     const double lowest = channels.response.frequency[0];
-    const auto bandwidth = control::position_bandwidth(channels, delay, law)
+    const auto bandwidth = control::position_bandwidth(channels, delay, controller)
                                .value_or(LoopQuantity{lowest, lowest, {}});
     ratios.push_back(
         at_least(GoalKind::bandwidth, LoopBreak::position_loop, bandwidth, *goals.bandwidth));

@@ -11,10 +11,10 @@
 namespace boresight::design {
 
 /// The constraints of a design. Those per break are in the order of control::loop_breaks.
-struct HardGoals {
+struct Constraints {
   /// Largest |S| allowed (Ms).
   std::array<double, 3> sensitivity_peak{2.0, 2.0, 2.0};
-  double valve_effort = 0.6;  // rad/s rms of noise-driven valve demand
+  double control_effort = 0.6;  // rad/s rms of noise-driven valve demand
   /// Smallest gain margin: factor, up or down, by which the gain may change; above 1.
   std::array<std::optional<double>, 3> gain_margin{};
   /// Smallest phase margin: angle to -1 (rad), within (0, pi).
@@ -33,25 +33,25 @@ struct HardGoals {
 
 /// @throws InvalidInput for a limit that no loop or every loop meets: Ms not above 1, a gain margin
 /// not above 1, a phase margin outside (0, pi), any other limit not positive and finite.
-void validate(const HardGoals& goals);
+void validate(const Constraints& goals);
 
 /// The objective of a tuning: a boresight rms computed from the rms on each plant.
-enum class SoftGoalKind {
+enum class ObjectiveKind {
   nominal,     // of the problem's own plant
   expected,    // root of the mean variance over the ensemble
   worst_case,  // the largest over the ensemble
   quantile,    // smallest value that a fraction of the ensemble stays below
 };
-std::string_view to_string(SoftGoalKind kind);
+std::string_view to_string(ObjectiveKind kind);
 
-struct SoftGoal {
-  SoftGoalKind kind = SoftGoalKind::nominal;
+struct Objective {
+  ObjectiveKind kind = ObjectiveKind::nominal;
   double quantile = 0.95;  // fraction of the members, within (0, 1]
 };
 
 enum class GoalKind {
   sensitivity_peak,
-  valve_effort,
+  control_effort,
   gain_margin,
   phase_margin,
   bandwidth,
@@ -61,18 +61,18 @@ enum class GoalKind {
 std::string_view to_string(GoalKind kind);
 
 /// One normalised constraint (value/limit) of one loop.
-struct GoalRatio {
+struct NormalisedConstraint {
   GoalKind kind = GoalKind::sensitivity_peak;
   std::optional<control::LoopBreak> loop_break;
   double frequency = 0.0;  // rad/s; 0 where the quantity covers all frequencies
   /// Value/limit for an upper limit, limit/value for a lower limit. Met up to 1.
   double ratio = 0.0;
   /// d ln(ratio) / d ln(gain).
-  std::array<double, control::most_gains> log_gradient{};
+  std::array<double, control::max_gains> log_gradient{};
 };
 
 /// "sensitivity peak at valve command, 0.84 Hz".
-std::string describe(const GoalRatio& goal);
+std::string describe(const NormalisedConstraint& goal);
 
 /// Loads of the mean wind at the motor, to which gusts are added.
 struct MeanWindLoad {
@@ -81,12 +81,13 @@ struct MeanWindLoad {
 };
 
 /// Appends the normalised constraints except margins and bandwidth, from one evaluation.
-void append_goal_ratios(const control::LoopEvaluation& evaluation, const HardGoals& goals,
-                        const MeanWindLoad& mean, std::vector<GoalRatio>& ratios);
+void append_normalised_constraints(const control::LoopEvaluation& evaluation,
+                                   const Constraints& goals, const MeanWindLoad& mean,
+                                   std::vector<NormalisedConstraint>& ratios);
 /// Appends the constraints on margins and bandwidth, where specified, from the loop gain. A
 /// bandwidth below the grid counts as the grid's first frequency.
 void append_margin_ratios(const control::LoopChannels& channels, double delay,
-                          const control::ControlLaw& law, const HardGoals& goals,
-                          std::vector<GoalRatio>& ratios);
+                          const control::Controller& controller, const Constraints& goals,
+                          std::vector<NormalisedConstraint>& ratios);
 
 }  // namespace boresight::design

@@ -28,8 +28,8 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
   return problem;
 }
 
-HardGoals constraints(const Mission& mission) {
-  HardGoals goals = mission.stated_constraints;
+Constraints constraints(const Mission& mission) {
+  Constraints goals = mission.stated_constraints;
   if (!mission.limits_gusts) return goals;
   goals.gust_torque = plant::available_wind_torque(mission.antenna);
   if (!(*goals.gust_torque > 0.0)) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
@@ -25,7 +25,7 @@ struct NamedStructure {
 /// A controller (structure and gains) with the name of its structure.
 struct NamedController {
   std::string name;
-  control::ControlLaw law;
+  control::Controller controller;
 };
 
 /// An alternative antenna that is consistent with the same evidence.
@@ -48,7 +48,7 @@ struct MemberRanges {
 /// Uncertainties of an antenna's parameters.
 struct AntennaUncertainty {
   MemberRanges ranges;
-  std::size_t draws = 24;  // samples of the ensemble, in addition to nominal and corners
+  std::size_t random_samples = 24;  // samples of the ensemble, in addition to nominal and corners
   /// Relative standard uncertainties.
   double antenna_inertia = 0.0, motor_inertia = 0.0, wind_torque = 0.0;
 };
@@ -76,9 +76,9 @@ struct Mission {
   std::vector<PointingBudget> budgets;
   control::FrequencyBand rms_band{1e-4, 25.0};  // Hz
   /// Constraints without limits in gusts, which depend on the antenna: see constraints().
-  HardGoals stated_constraints;
+  Constraints stated_constraints;
   bool limits_gusts = false;
-  SoftGoal objective;
+  Objective objective;
   std::optional<double> rms_goal;  // rad
   bool minimises_climate = false;  // the climate's mean square instead of one speed's
 
@@ -90,8 +90,8 @@ struct Mission {
   /// Where the present gains are not known: the name of the present structure, one of `structures`;
   /// empty if that is not known either.
   std::string present_structure;
-  int starts = 0;           // of each search; 0: the tuner's default
-  double most_disks = 0.0;  // per motor, of a matching study
+  int starts = 0;          // of each search; 0: the tuner's default
+  double max_disks = 0.0;  // per motor, of a matching study
 };
 
 /// Tracking problem of the mission's antenna with these changes, in its design wind.
@@ -104,7 +104,7 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
 /// The constraints of a mission. Gusts, where limited, are limited to valve demands within the
 /// stroke (plant::largest_demand) and to torques within plant::available_wind_torque.
 /// @throws InvalidInput where friction and offset leave no torque.
-HardGoals constraints(const Mission& mission);
+Constraints constraints(const Mission& mission);
 
 /// Mean wind speed (m/s) at which the mean wind torque equals plant::available_wind_torque. 0 if
 /// the available torque is 0, infinite without mean torque.

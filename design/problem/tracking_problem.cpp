@@ -125,9 +125,10 @@ plant::ShapingFilter fit_wind_filter(const TrackingProblem& problem) {
   return plant::fit_shaping_filter(frequency, motor_wind_spectrum(problem, two_pi * frequency), 6);
 }
 
-double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
-                         const Eigen::ArrayXd& wind_transmission, double noise_variance,
-                         double mean_speed) {
+double boresight_rms_at_speed(const TrackingProblem& problem,
+                              const control::LoopEvaluator& evaluator,
+                              const Eigen::ArrayXd& wind_transmission, double noise_variance,
+                              double mean_speed) {
   WindCondition wind = problem.wind;
   wind.mean_speed = mean_speed;
   const Eigen::ArrayXd spectrum =
@@ -138,10 +139,11 @@ double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEval
 }
 
 double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
-                        const control::ControlLaw& law, double noise_variance, double rms_budget) {
-  const Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
+                        const control::Controller& controller, double noise_variance,
+                        double rms_budget) {
+  const Eigen::ArrayXd transmission = evaluator.wind_transmission(controller);
   const auto rms = [&](double speed) {
-    return beam_rms_at_speed(problem, evaluator, transmission, noise_variance, speed);
+    return boresight_rms_at_speed(problem, evaluator, transmission, noise_variance, speed);
   };
   double low = 0.1, high = 60.0;
   if (rms(low) >= rms_budget) return 0.0;
@@ -149,9 +151,9 @@ double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvalu
   // The rms rises with speed nearly as its square: regula falsi in logarithms, safeguarded.
   double log_low = std::log(rms(low) / rms_budget), log_high = std::log(rms(high) / rms_budget);
   while (std::log(high / low) > 1e-5) {
-    double share = log_low / (log_low - log_high);
-    share = std::min(std::max(share, 0.02), 0.98);
-    const double middle = low * std::pow(high / low, share);
+    double fraction = log_low / (log_low - log_high);
+    fraction = std::min(std::max(fraction, 0.02), 0.98);
+    const double middle = low * std::pow(high / low, fraction);
     const double value = std::log(rms(middle) / rms_budget);
     if (std::abs(value) < 1e-7) return middle;
     if (value < 0.0) {

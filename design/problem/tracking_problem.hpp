@@ -96,14 +96,16 @@ plant::ShapingFilter fit_wind_filter(const TrackingProblem& problem);
 
 /// Boresight rms (rad at the sky, per axis) with fixed gains at another mean speed of the problem's
 /// wind. A climate is ignored.
-double beam_rms_at_speed(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
-                         const Eigen::ArrayXd& wind_transmission, double noise_variance,
-                         double mean_speed);
+double boresight_rms_at_speed(const TrackingProblem& problem,
+                              const control::LoopEvaluator& evaluator,
+                              const Eigen::ArrayXd& wind_transmission, double noise_variance,
+                              double mean_speed);
 
 /// Mean wind speed (m/s) at which the boresight rms with fixed gains reaches `rms_budget` (rad at
 /// the sky). Computed by safeguarded regula falsi within [0.1, 60] m/s. 0 if noise alone exceeds
 /// the budget, infinity if it is not reached by 60 m/s.
 double wind_speed_limit(const TrackingProblem& problem, const control::LoopEvaluator& evaluator,
-                        const control::ControlLaw& law, double noise_variance, double rms_budget);
+                        const control::Controller& controller, double noise_variance,
+                        double rms_budget);
 
 }  // namespace boresight::design

@@ -16,8 +16,8 @@ constexpr int points = 4;  // of a panel
 constexpr int panels = 12;
 constexpr double negligible = 1e-12;
 
-bool within(double value, double least, double most) {
-  return value >= least && value <= most;
+bool within(double value, double minimum, double maximum) {
+  return value >= minimum && value <= maximum;
 }
 
 // ln((v/scale)^shape) at v = ratio x mean. Convex in the shape: its slope, with x = 1/shape
@@ -26,7 +26,7 @@ double log_exponent(double ratio, double shape) {
   return shape * std::log(ratio * std::tgamma(1.0 + 1.0 / shape));
 }
 
-double share_above(double ratio, double shape) {
+double fraction_above(double ratio, double shape) {
   return std::exp(-std::exp(log_exponent(ratio, shape)));
 }
 
@@ -57,17 +57,19 @@ std::optional<double> shape_between(double ratio, double exponent, double lower,
 }
 
 double highest_of(const ClimatePart& part) {
-  const auto* law = std::get_if<WeibullClimate>(&part.winds);
-  return law != nullptr ? law->highest : std::get<double>(part.winds);
+  const auto* controller = std::get_if<WeibullClimate>(&part.winds);
+  return controller != nullptr ? controller->highest : std::get<double>(part.winds);
 }
 
 // How much of the part's time its speed is at most that.
-double share_of(const ClimatePart& part, double speed) {
+double fraction_of(const ClimatePart& part, double speed) {
   if (speed >= highest_of(part) * (1.0 - 1e-9)) return 1.0;
-  const auto* law = std::get_if<WeibullClimate>(&part.winds);
-  if (law == nullptr) return 0.0;
-  const auto below = [&](double v) { return -std::expm1(-std::pow(v / law->scale, law->shape)); };
-  return below(std::max(0.0, speed)) / below(law->highest);
+  const auto* controller = std::get_if<WeibullClimate>(&part.winds);
+  if (controller == nullptr) return 0.0;
+  const auto below = [&](double v) {
+    return -std::expm1(-std::pow(v / controller->scale, controller->shape));
+  };
+  return below(std::max(0.0, speed)) / below(controller->highest);
 }
 
 }  // namespace
@@ -123,22 +125,22 @@ WeibullClimate weibull_climate(double mean, double shape, double highest) {
   return {mean / std::tgamma(1.0 + 1.0 / shape), shape, highest};
 }
 
-WeibullShapes weibull_shapes(double ratio, double share) {
-  if (!within(ratio, 1e-3, 1e3) || !(share > 0.0) || !(share <= 1.0)) {
-    throw InvalidInput(
-        fmt::format("weibull_shapes: expected a speed of 0.001 to 1000 times the mean and a share "
-                    "above 0 and at most 1, found {} times and {}",
-                    ratio, share));
+WeibullShapes weibull_shapes(double ratio, double fraction) {
+  if (!within(ratio, 1e-3, 1e3) || !(fraction > 0.0) || !(fraction <= 1.0)) {
+    throw InvalidInput(fmt::format(
+        "weibull_shapes: expected a speed of 0.001 to 1000 times the mean and a fraction "
+        "above 0 and at most 1, found {} times and {}",
+        ratio, fraction));
   }
-  const double most = shape_of_most(ratio);
-  const double exponent = std::log(-std::log(share));
+  const double maximum = shape_of_most(ratio);
+  const double exponent = std::log(-std::log(fraction));
   WeibullShapes found;
-  found.least_share =
-      std::min(share_above(ratio, lowest_shape_sought), share_above(ratio, highest_shape_sought));
-  found.most_share = share_above(ratio, most);
+  found.min_fraction = std::min(fraction_above(ratio, lowest_shape_sought),
+                                fraction_above(ratio, highest_shape_sought));
+  found.max_fraction = fraction_above(ratio, maximum);
   constexpr double same = 1e-3;
   for (const double end : {lowest_shape_sought, highest_shape_sought}) {
-    const auto shape = shape_between(ratio, exponent, most, end);
+    const auto shape = shape_between(ratio, exponent, maximum, end);
     if (!shape) continue;
     if (found.shapes.empty() || *shape > found.shapes.front() + same) {
       found.shapes.push_back(*shape);
@@ -147,14 +149,14 @@ WeibullShapes weibull_shapes(double ratio, double share) {
   return found;
 }
 
-double share_of_time(const std::vector<ClimatePart>& climate, double speed) {
+double fraction_of_time(const std::vector<ClimatePart>& climate, double speed) {
   double sum = 0.0, below = 0.0;
   for (const auto& part : climate) {
     sum += part.weight;
-    below += part.weight * share_of(part, speed);
+    below += part.weight * fraction_of(part, speed);
   }
   if (!(sum > 0.0)) {
-    throw InvalidInput("share_of_time: expected a climate of a weight above 0, found none");
+    throw InvalidInput("fraction_of_time: expected a climate of a weight above 0, found none");
   }
   return below / sum;
 }

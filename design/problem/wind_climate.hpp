@@ -42,18 +42,18 @@ constexpr double highest_shape_sought = 10.0;
 struct WeibullShapes {
   std::vector<double> shapes;  // ascending
   /// Smallest and largest fraction of all winds above that speed, over all shapes searched.
-  double least_share = 0.0;
-  double most_share = 0.0;
+  double min_fraction = 0.0;
+  double max_fraction = 0.0;
 };
 
-/// Shapes with which the fraction `share` (above 0, at most 1) of all winds lies above `ratio`
+/// Shapes with which the fraction `fraction` (above 0, at most 1) of all winds lies above `ratio`
 /// times their mean (0.001 to 1000):
 ///   exp(-(ratio Gamma(1 + 1/shape))^shape) = share.
 /// The fraction falls with the shape above 1.81 times the mean and rises with it up to the mean.
 /// Between the two it has a maximum, so there may be two shapes. Shapes within 0.001 of one another
 /// count as one.
 /// @throws InvalidInput outside those ranges.
-WeibullShapes weibull_shapes(double ratio, double share);
+WeibullShapes weibull_shapes(double ratio, double fraction);
 
 /// A part of a site's climate: one mean speed (m/s, above 0) or a Weibull distribution, and its
 /// fraction of the time. The fractions need not sum to 1.
@@ -68,7 +68,7 @@ struct ClimatePart {
 /// computed exactly and not from the speeds of climate_speeds. A single speed counts from itself
 /// on.
 /// @throws InvalidInput for an empty climate, or no positive weight.
-double share_of_time(const std::vector<ClimatePart>& climate, double speed);
+double fraction_of_time(const std::vector<ClimatePart>& climate, double speed);
 
 /// The highest mean speed (m/s) in the climate; 0 for an empty climate.
 double highest_speed(const std::vector<ClimatePart>& climate);

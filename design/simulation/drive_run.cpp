@@ -72,10 +72,11 @@ Eigen::VectorXd refined(const DriveTest& test, Index stride) {
   Eigen::VectorXd fine((test.command.size() - 1) * stride + 1);
   for (Index k = 0; k < fine.size(); ++k) {
     const Index from = k / stride;
-    const double share =
+    const double fraction =
         test.held ? 0.0 : static_cast<double>(k % stride) / static_cast<double>(stride);
-    fine[k] = share == 0.0 ? test.command[from]
-                           : (1.0 - share) * test.command[from] + share * test.command[from + 1];
+    fine[k] = fraction == 0.0
+                  ? test.command[from]
+                  : (1.0 - fraction) * test.command[from] + fraction * test.command[from + 1];
   }
   return fine;
 }

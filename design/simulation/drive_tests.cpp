@@ -184,8 +184,8 @@ std::vector<DriveTest> drive_tests(const TestedDrive& drive, DriveTestKind kind)
       break;
     case DriveTestKind::constant_speed:
       // From just beyond breakaway to near the recorder's limit.
-      for (const double share : {0.025, 0.05, 0.1, 0.2, 0.4, 0.8}) {
-        tests.push_back(constant_speed(share * limit / scale, scale, step));
+      for (const double fraction : {0.025, 0.05, 0.1, 0.2, 0.4, 0.8}) {
+        tests.push_back(constant_speed(fraction * limit / scale, scale, step));
       }
       break;
     case DriveTestKind::valve_steps:

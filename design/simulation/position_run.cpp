@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/simulation/position_run.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
@@ -42,19 +42,20 @@ struct SimulatedAxis {
 
 // Beam rms of the linear design in wind of that mean speed (rad at the sky); none of an unstable
 // one.
-std::optional<double> predicted_rms(const TrackingProblem& problem, const TuningResult& judged,
+std::optional<double> predicted_rms(const TrackingProblem& problem, const TuningResult& evaluated,
                                     double mean_speed) {
-  if (mean_speed <= 0.0 || judged.status == TuningStatus::unstable) return std::nullopt;
+  if (mean_speed <= 0.0 || evaluated.status == TuningStatus::unstable) return std::nullopt;
   if (mean_speed == problem.wind.mean_speed) {
-    return std::sqrt(judged.evaluation.beam_variance()) / problem.gear_ratio;
+    return std::sqrt(evaluated.evaluation.boresight_variance()) / problem.gear_ratio;
   }
   control::LoopEvaluator evaluator = make_evaluator(problem);
-  return beam_rms_at_speed(problem, evaluator, evaluator.wind_transmission(judged.law),
-                           judged.evaluation.noise_variance, mean_speed);
+  return boresight_rms_at_speed(problem, evaluator,
+                                evaluator.wind_transmission(evaluated.controller),
+                                evaluated.evaluation.noise_variance, mean_speed);
 }
 
-LoopRun run_position_loop(const SimulatedAxis& axis, const control::ControlLaw& law,
-                          const LoopCourse& course, std::uint64_t seed,
+LoopRun run_position_loop(const SimulatedAxis& axis, const control::Controller& controller,
+                          const ReferenceTrajectory& course, std::uint64_t seed,
                           const RunProgress& progress) {
   LoopRunOptions options;
   options.seed = seed;
@@ -65,7 +66,7 @@ LoopRun run_position_loop(const SimulatedAxis& axis, const control::ControlLaw& 
       return progress(static_cast<double>(done) / static_cast<double>(all));
     };
   }
-  auto run = run_loop(make_simulated_loop(axis.problem, axis.antenna, law), course, options);
+  auto run = run_loop(make_simulated_loop(axis.problem, axis.antenna, controller), course, options);
   if (run.status == RunStatus::failed) throw NumericalFailure(run.message);
   return run;
 }
@@ -75,13 +76,13 @@ double rms_about_mean(const VectorXd& values) {
 }
 
 // The record without its errors.
-PositionTestRecord describe(const SimulatedAxis& axis, const control::ControlLaw& law,
-                            const LoopRun& run, const LoopCourse& course) {
+PositionTestRecord describe(const SimulatedAxis& axis, const control::Controller& controller,
+                            const LoopRun& run, const ReferenceTrajectory& course) {
   const auto& result = run.result;
   const double interval = course.interval;
   const Index samples = result.values.rows();
   PositionTestRecord record;
-  record.controller = law;
+  record.controller = controller;
   record.complete = result.complete;
   record.events = plant::events_of(axis.antenna, result, column(result, "valve_command"), interval);
   record.sample_time = interval;
@@ -90,7 +91,7 @@ PositionTestRecord describe(const SimulatedAxis& axis, const control::ControlLaw
   record.channels = {{"time", "s", 6, VectorXd::LinSpaced(samples, 0.0, record.duration)},
                      {"reference", "deg", 7, run.reference / (axis.gear * degree)},
                      {"encoder_error", "mdeg", 5, run.encoder_error / millidegree},
-                     {"beam_error", "mdeg", 5, run.beam_error / millidegree},
+                     {"boresight_error", "mdeg", 5, run.boresight_error / millidegree},
                      {"motor_rate", "rad/s", 5, column(result, "motor_rate")},
                      {"motor_torque", "N.m", 4, column(result, "motor_torque")},
                      {"valve_command", "rad/s", 5, column(result, "valve_command")},
@@ -99,14 +100,14 @@ PositionTestRecord describe(const SimulatedAxis& axis, const control::ControlLaw
 }
 
 // Errors at the sky from sample `settled` on; none without at least a second of them.
-void judge(PositionTestRecord& record, Index settled) {
+void evaluate(PositionTestRecord& record, Index settled) {
   const auto& channels = record.channels;
   const Index rest = channels.front().values.size() - settled;
   if (static_cast<double>(rest) * record.sample_time < 1.0) return;
   const VectorXd encoder = channels[2].values.tail(rest) * millidegree;
-  const VectorXd beam = channels[3].values.tail(rest) * millidegree;
-  record.beam_rms = rms_about_mean(beam);
-  record.beam_mean = beam.mean();
+  const VectorXd boresight = channels[3].values.tail(rest) * millidegree;
+  record.boresight_rms = rms_about_mean(boresight);
+  record.boresight_mean = boresight.mean();
   record.encoder_rms = rms_about_mean(encoder);
 }
 
@@ -148,8 +149,8 @@ WindCourse measured_wind(const Mission& mission, const plant::WindRecord& record
   for (Index k = 0; k < course.torque.size(); ++k) {
     const double place = interval * static_cast<double>(k) / record.sample_time;
     const auto i = std::min(static_cast<Index>(place), torque.size() - 2);
-    const double share = place - static_cast<double>(i);
-    course.torque[k] += ((1.0 - share) * torque[i] + share * torque[i + 1]) / gear;
+    const double fraction = place - static_cast<double>(i);
+    course.torque[k] += ((1.0 - fraction) * torque[i] + fraction * torque[i + 1]) / gear;
   }
   const double rms = std::sqrt((record.speed.array() - course.mean_speed).square().mean());
   course.measured = MeasuredGusts{rms, record.sample_time};
@@ -158,7 +159,7 @@ WindCourse measured_wind(const Mission& mission, const plant::WindRecord& record
 
 }  // namespace
 
-PositionTestRecord run_tracking(const Mission& mission, const control::ControlLaw& law,
+PositionTestRecord run_tracking(const Mission& mission, const control::Controller& controller,
                                 std::uint64_t seed, const RunProgress& progress) {
   constexpr double settle = 60.0;
   constexpr double measured = 600.0;
@@ -169,19 +170,19 @@ PositionTestRecord run_tracking(const Mission& mission, const control::ControlLa
   const WindCourse gusts =
       mission.wind_record ? measured_wind(mission, *mission.wind_record, axis.gear, interval, seed)
                           : synthesised_wind(wind, axis.gear, settle + measured, interval, seed);
-  const LoopCourse course = steady_course(interval, rate, gusts.torque);
-  const auto judged = assess(axis.problem, law, constraints(mission)).tuning;
-  const auto run = run_position_loop(axis, law, course, seed, progress);
-  PositionTestRecord record = describe(axis, law, run, course);
+  const ReferenceTrajectory course = steady_course(interval, rate, gusts.torque);
+  const auto evaluated = assess(axis.problem, controller, constraints(mission)).tuning;
+  const auto run = run_position_loop(axis, controller, course, seed, progress);
+  PositionTestRecord record = describe(axis, controller, run, course);
   record.test = "tracking";
   record.tracking = TrackingCourse{mission.antenna.drive.tracking_rate, gusts.mean_speed,
                                    wind.model, plant::site_gusts(wind.site).kind, gusts.measured};
-  judge(record, static_cast<Index>(std::llround(settle / interval)));
-  record.predicted_rms = predicted_rms(axis.problem, judged, gusts.mean_speed);
+  evaluate(record, static_cast<Index>(std::llround(settle / interval)));
+  record.predicted_rms = predicted_rms(axis.problem, evaluated, gusts.mean_speed);
   return record;
 }
 
-PositionTestRecord run_slew(const Mission& mission, const control::ControlLaw& law,
+PositionTestRecord run_slew(const Mission& mission, const control::Controller& controller,
                             std::uint64_t seed, const RunProgress& progress) {
   constexpr double distance = 1.0 * degree;
   constexpr double still = 5.0;  // s before
@@ -190,26 +191,26 @@ PositionTestRecord run_slew(const Mission& mission, const control::ControlLaw& l
   const double gear = axis.gear;
   const double wanted = mission.antenna.drive.slew_rate;
   const double attainable = attainable_rate(axis.antenna, wanted * gear) / gear;
-  const auto limits = within_reach(axis.antenna, plant::reflected_inertia(axis.problem.plant),
-                                   {wanted * gear, largest_acceleration * gear});
+  const auto limits = achievable_limits(axis.antenna, plant::reflected_inertia(axis.problem.plant),
+                                        {wanted * gear, largest_acceleration * gear});
   constexpr double longest = 3600.0;  // s
   if (!(limits.rate > 0.0) || !(limits.acceleration > 0.0) ||
-      control::least_move_time(limits, distance * gear) >= longest) {
+      control::min_move_time(limits, distance * gear) >= longest) {
     throw InfeasibleRequirement(
         fmt::format("the supply cannot slew this antenna: against friction it holds {:.3g} deg/s",
                     attainable / degree));
   }
-  const double moving = control::least_move_time(limits, distance * gear);
+  const double moving = control::min_move_time(limits, distance * gear);
   const auto moved = static_cast<Index>(std::ceil((still + moving) / axis.sample_time)) + 2;
   const auto samples = moved + static_cast<Index>(std::ceil(hold / axis.sample_time));
-  const LoopCourse course =
+  const ReferenceTrajectory course =
       shaped_course(limits, axis.sample_time, samples, intervals_per_sample, [&](double t) {
         return control::CommandSample{t > still ? distance * gear : 0.0, 0.0, 0.0};
       });
-  const auto run = run_position_loop(axis, law, course, seed, progress);
+  const auto run = run_position_loop(axis, controller, course, seed, progress);
   const Index end = moved * intervals_per_sample;
   const double interval = course.interval;
-  PositionTestRecord record = describe(axis, law, run, course);
+  PositionTestRecord record = describe(axis, controller, run, course);
   record.test = "slew";
   record.slew = SlewCourse{distance, course.reference_rate.maxCoeff() / gear,
                            limits.acceleration / gear, wanted, attainable};
@@ -223,7 +224,7 @@ PositionTestRecord run_slew(const Mission& mission, const control::ControlLaw& l
   constexpr double long_enough = 10.0;  // s within the bound
   if (static_cast<double>(error.size() - settled) * interval >= long_enough) {
     record.settling_time = interval * static_cast<double>(settled - end);
-    judge(record, settled);
+    evaluate(record, settled);
   }
   return record;
 }

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <optional>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/mission.hpp>
 #include <boresight/design/simulation/simulated_record.hpp>
 
@@ -34,18 +34,18 @@ struct SlewCourse {
 };
 
 /// The antenna under its position loop, in the time domain. Channels: time, reference (deg),
-/// encoder_error and beam_error (mdeg), all at the sky; motor_rate, motor_torque, valve_command,
-/// wind_torque_at_motor.
+/// encoder_error and boresight_error (mdeg), all at the sky; motor_rate, motor_torque,
+/// valve_command, wind_torque_at_motor.
 struct PositionTestRecord : SimulatedRecord {
-  control::ControlLaw controller;
+  control::Controller controller;
   /// The manoeuvre; exactly one is set.
   std::optional<TrackingCourse> tracking;
   std::optional<SlewCourse> slew;
   /// Boresight error about its mean, once settled (rad at the sky). The mean is the static
   /// deflection of the structure under the mean wind, which calibration removes. None if the run
   /// ended earlier, or never settled.
-  std::optional<double> beam_rms;
-  std::optional<double> beam_mean;
+  std::optional<double> boresight_rms;
+  std::optional<double> boresight_mean;
   std::optional<double> encoder_rms;
   /// Tracking: boresight rms by the linear design for the same wind and noise (rad at the sky).
   std::optional<double> predicted_rms;
@@ -65,7 +65,7 @@ struct PositionTestRecord : SimulatedRecord {
 /// speed. Wind and noise depend on the seed.
 /// @throws InvalidInput without Antenna::nonlinear, and as tracking_problem, constraints and
 /// control::validate; NumericalFailure as run_loop.
-PositionTestRecord run_tracking(const Mission& mission, const control::ControlLaw& law,
+PositionTestRecord run_tracking(const Mission& mission, const control::Controller& controller,
                                 std::uint64_t seed, const RunProgress& progress);
 
 /// Simulates a slew of one degree through the command preprocessor in still air, then 60 s of
@@ -73,7 +73,7 @@ PositionTestRecord run_tracking(const Mission& mission, const control::ControlLa
 /// against friction, if that is less. The acceleration is 0.2 deg/s2, or that from half the
 /// supply's remaining torque at that rate, if that is less.
 /// @throws as run_tracking, and InfeasibleRequirement if the supply cannot move the antenna.
-PositionTestRecord run_slew(const Mission& mission, const control::ControlLaw& law,
+PositionTestRecord run_slew(const Mission& mission, const control::Controller& controller,
                             std::uint64_t seed, const RunProgress& progress);
 
 }  // namespace boresight::design

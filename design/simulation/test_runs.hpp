@@ -21,7 +21,7 @@ using TestRun = std::function<TestRecord(const RunProgress& progress)>;
 struct TestRunCalls {
   /// Returns whether to end: records under way are then kept up to that time, the rest is skipped.
   std::function<bool()> interrupted;
-  std::function<void(double share)> progress;  // fraction of all runs, 0..1
+  std::function<void(double fraction)> progress;  // fraction of all runs, 0..1
   /// Receives the records in the order of their runs, each as soon as all before it were received.
   /// An exception from it counts as the failure of that run.
   std::function<void(std::size_t run, TestRecord record)> keep;

@@ -4,15 +4,16 @@ namespace boresight::design {
 
 std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended) {
   if (recommended.design.tuning.status == TuningStatus::unstable) return std::nullopt;
-  AdjustableLoop loop{recommended.name, recommended.design.tuning.law, recommended.problem,
+  AdjustableLoop loop{recommended.name, recommended.design.tuning.controller, recommended.problem,
                       recommended.goals};
   loop.problem.climate.clear();
   return loop;
 }
 
-std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study, const TunedLaw& row) {
+std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study,
+                                              const TunedController& row) {
   if (!row.stable()) return std::nullopt;
-  AdjustableLoop loop{row.structure, row.design.tuning.law, study.problem, study.goals};
+  AdjustableLoop loop{row.structure, row.design.tuning.controller, study.problem, study.goals};
   loop.problem.wind.mean_speed = row.wind_speed;
   loop.problem.climate.clear();
   return loop;

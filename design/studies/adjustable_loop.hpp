@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
@@ -16,16 +16,16 @@ namespace boresight::design {
 /// stiffness, leakage rate and friction slope change. The rms equals that of make_evaluator at the
 /// problem's wind speed; no wind climate is included.
 struct AdjustableLoop {
-  std::string structure;    // as the user has it
-  control::ControlLaw law;  // stable on the problem's plant
+  std::string structure;           // as the user has it
+  control::Controller controller;  // stable on the problem's plant
   TrackingProblem problem;
-  HardGoals goals;
+  Constraints goals;
 };
 
 /// The recommended controller of a redesign. None if that controller is not stable.
 std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended);
 
 /// A controller of a tuning study at its own wind speed. None if it is not stable.
-std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study, const TunedLaw& row);
+std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study, const TunedController& row);
 
 }  // namespace boresight::design

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/benchmark_study.hpp>
@@ -32,21 +32,22 @@ std::vector<WindAttitudeCoefficient> attitudes_of(const Mission& mission) {
   return attitudes;
 }
 
-bool is_present(const control::ControlLaw& law, const Mission& mission) {
+bool is_present(const control::Controller& controller, const Mission& mission) {
   return std::ranges::any_of(mission.present_controllers, [&](const auto& present) {
-    return present.law.structure == law.structure && present.law.gains == law.gains;
+    return present.controller.structure == controller.structure &&
+           present.controller.gains == controller.gains;
   });
 }
 
 }  // namespace
 
-BenchmarkedController controller_of(const control::ControlLaw& tuned,
+BenchmarkedController controller_of(const control::Controller& tuned,
                                     const std::string& description, double sample_time) {
   BenchmarkedController controller;
-  controller.law = tuned;
+  controller.controller = tuned;
   controller.description = description;
   controller.system = control::antenna_state_space_controller(
-      sample_time > 0.0 ? control::sampled_law(tuned, sample_time)
+      sample_time > 0.0 ? control::sampled_controller(tuned, sample_time)
                         : control::to_state_space(tuned));
   return controller;
 }
@@ -63,7 +64,7 @@ BenchmarkStudy study_rejection(const Mission& mission, const std::vector<Ensembl
   const TrackingProblem problem = tracking_problem(mission);
   BenchmarkStudy study;
   study.controller = controller;
-  study.present_gains = controller.law && is_present(*controller.law, mission);
+  study.present_gains = controller.controller && is_present(*controller.controller, mission);
   const double sample_time = controller.system.sample_time;
   study.dead_time = sample_time > 0.0 ? sample_time : problem.delay;
   study.expected_sample_time = control::sample_time_of(problem.delay);
@@ -91,26 +92,26 @@ BenchmarkStudy study_rejection(const Mission& mission, const std::vector<Ensembl
   study.interrupted = !study.score.left_out.empty();
   if (study.score.stable && study.score.step.horizon > 0.0) {
     constexpr double longest = 120.0;  // s
-    const control::ControlledCourse course(problem.plant, study.controller.system, problem.delay);
+    const control::ClosedLoopResponse course(problem.plant, study.controller.system, problem.delay);
     const double shown = std::min(longest, study.score.step.horizon);
-    study.step_course = course.beam(control::TorqueCourse::step, shown);
-    study.impulse_course = course.beam(control::TorqueCourse::impulse, shown);
+    study.step_course = course.boresight(control::DisturbanceType::step, shown);
+    study.impulse_course = course.boresight(control::DisturbanceType::impulse, shown);
   }
   if (!study.score.stable) {
     study.no_nonlinear = NoTimeDomain::unstable;
   } else if (scoring.stop()) {
     study.interrupted = true;
     study.no_nonlinear = NoTimeDomain::interrupted;
-  } else if (!study.controller.law) {
+  } else if (!study.controller.controller) {
     study.no_nonlinear = NoTimeDomain::state_space;
   } else if (!mission.antenna.nonlinear) {
     study.no_nonlinear = NoTimeDomain::linear_only;
   } else {
-    study.nonlinear =
-        verify_in_time_domain(mission, problem, *study.controller.law, study.controller.description,
-                              options.seed, options.threads, SecondIntegrator::none);
-    study.simulated_budget_speeds = budget_speeds(problem, *study.controller.law, study.budgets,
-                                                  study.nonlinear->own().effect());
+    study.nonlinear = verify_in_time_domain(mission, problem, *study.controller.controller,
+                                            study.controller.description, options.seed,
+                                            options.threads, SecondIntegrator::none);
+    study.simulated_budget_speeds = budget_speeds(problem, *study.controller.controller,
+                                                  study.budgets, study.nonlinear->own().effect());
   }
   return study;
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/control/loops/state_space_controller_course.hpp>
+#include <boresight/control/loops/state_space_controller_response.hpp>
 #include <boresight/design/benchmark/rejection_benchmark.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 
@@ -19,13 +19,13 @@ struct BenchmarkedController {
   std::string description;
   /// The controller of Boresight's structures whose state space `system` is; none for any other
   /// system. Nonlinear simulations run only for these.
-  std::optional<control::ControlLaw> law;
+  std::optional<control::Controller> controller;
 };
 
 /// The state space of a controller: continuous, or, for sample_time above 0 (s), in the sampled
-/// form that the antenna's computer runs. @throws as control::sampled_law.
-BenchmarkedController controller_of(const control::ControlLaw& law, const std::string& description,
-                                    double sample_time);
+/// form that the antenna's computer runs. @throws as control::sampled_controller.
+BenchmarkedController controller_of(const control::Controller& controller,
+                                    const std::string& description, double sample_time);
 
 /// Reason why no simulation on the nonlinear antenna exists.
 enum class NoTimeDomain {
@@ -46,13 +46,13 @@ struct BenchmarkStudy {
   double gear_ratio = 1.0;
   WindCondition wind;
   control::FrequencyBand rms_band;
-  HardGoals goals;
+  Constraints goals;
   std::vector<PointingBudget> budgets;
   std::size_t attitudes = 0;  // evaluated, of the mission's table of torque coefficients
   RejectionScore score;
   /// Boresight response (rad of motor) to 1 N m and to 1 N m s at the motor shaft; at most 120 s,
   /// for plots.
-  std::vector<control::CoursePoint> step_course, impulse_course;
+  std::vector<control::ResponseSample> step_course, impulse_course;
   std::optional<TimeDomainStudy> nonlinear;
   /// m/s, one per budget: the score's budget_speeds by that simulation, limit cycle included. Empty
   /// without a simulation.

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include <boresight/design/problem/budget_speeds.hpp>
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/studies/candidate_figures.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -29,7 +29,7 @@ std::optional<SlewFigures> slew_of(const plant::Antenna& antenna) {
   const double inertia =
       motor_inertia(antenna) + gear_train_inertia(antenna) + antenna_inertia(antenna);
   const auto reach =
-      within_reach(plant::nonlinear_antenna(antenna), inertia, {wanted, any_acceleration});
+      achievable_limits(plant::nonlinear_antenna(antenna), inertia, {wanted, any_acceleration});
   slew.reachable_acceleration = std::max(0.0, reach.acceleration / ratio);
   slew.rate = std::max(0.0, reach.rate / ratio);
   slew.acceleration = std::max(0.0, std::min(acceleration * ratio, reach.acceleration) / ratio);
@@ -45,15 +45,15 @@ std::optional<SlewFigures> slew_of(const plant::Antenna& antenna) {
 
 CandidateFigures candidate_figures(const Mission& mission, const std::vector<PointingBand>& bands,
                                    const std::vector<PointingBudget>& budgets,
-                                   const CandidateLaw& tuned) {
-  const control::ControlLaw& law = tuned.design.tuning.law;
+                                   const CandidateController& tuned) {
+  const control::Controller& controller = tuned.design.tuning.controller;
   const NonlinearEffect effect = tuned.effect();
   const bool known = std::isfinite(effect.factor);
   CandidateFigures figures;
   TrackingProblem problem = tracking_problem(mission);
   auto evaluator = make_evaluator(problem);
   evaluator.look_at_gusts(true);
-  const auto evaluation = evaluator.evaluate(law, false);
+  const auto evaluation = evaluator.evaluate(controller, false);
   const auto losses = [&](double rms) {
     std::vector<double> found;
     for (const auto& band : bands) {
@@ -62,11 +62,12 @@ CandidateFigures candidate_figures(const Mission& mission, const std::vector<Poi
     }
     return found;
   };
-  figures.supply_wind_speed = torque_limited_wind_speed(mission);
-  figures.losses = losses(effect.rms(std::sqrt(evaluation.beam_variance()) / problem.gear_ratio));
-  figures.speed_limits =
-      known ? budget_speeds(problem, evaluator, law, evaluation.noise_variance, budgets, effect)
-            : std::vector<double>(budgets.size(), nan);
+  figures.torque_limited_wind_speed = torque_limited_wind_speed(mission);
+  figures.losses =
+      losses(effect.rms(std::sqrt(evaluation.boresight_variance()) / problem.gear_ratio));
+  figures.speed_limits = known ? budget_speeds(problem, evaluator, controller,
+                                               evaluation.noise_variance, budgets, effect)
+                               : std::vector<double>(budgets.size(), nan);
   const double crest = mission.stated_constraints.crest_factor;
   const double mean = std::abs(plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) /
                                problem.gear_ratio);
@@ -80,9 +81,9 @@ CandidateFigures candidate_figures(const Mission& mission, const std::vector<Poi
   figures.slew = slew_of(mission.antenna);
   if (!mission.climate.empty()) {
     problem.climate = mission.climate;
-    figures.climate_rms =
-        effect.rms(std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /
-                   problem.gear_ratio);
+    figures.climate_rms = effect.rms(
+        std::sqrt(make_evaluator(problem).evaluate(controller, false).boresight_variance()) /
+        problem.gear_ratio);
     figures.climate_losses = losses(*figures.climate_rms);
   }
   return figures;

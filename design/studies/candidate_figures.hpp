@@ -6,9 +6,9 @@ namespace boresight::design {
 
 /// Figures of the tuned controller and the drive at the design's wind speed, for the given bands
 /// and budgets. @throws InvalidInput and NumericalFailure as make_evaluator, wind_speed_limit and
-/// within_reach.
+/// achievable_limits.
 CandidateFigures candidate_figures(const Mission& mission, const std::vector<PointingBand>& bands,
                                    const std::vector<PointingBudget>& budgets,
-                                   const CandidateLaw& tuned);
+                                   const CandidateController& tuned);
 
 }  // namespace boresight::design

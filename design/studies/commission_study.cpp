@@ -9,8 +9,8 @@
 namespace boresight::design {
 namespace {
 
-constexpr double step_share = 0.2;
-constexpr double move_share = 0.05;
+constexpr double step_fraction = 0.2;
+constexpr double move_fraction = 0.05;
 constexpr double move_ramp = 2.0;  // s
 constexpr double largest_angle_step = 100.0 * millidegree;
 
@@ -25,11 +25,11 @@ double round_down(double value) {
 
 double step_of(const plant::Antenna& antenna, const CommissioningStage& stage) {
   const double by_valve =
-      step_share * plant::largest_demand(antenna) / stage.expected.largest_demand.largest;
+      step_fraction * plant::largest_demand(antenna) / stage.expected.largest_demand.largest;
   const double by_torque =
-      step_share * plant::supply_torque(antenna) / stage.expected.largest_torque.largest;
+      step_fraction * plant::supply_torque(antenna) / stage.expected.largest_torque.largest;
   const double largest =
-      stage.law.position_open ? step_share * antenna.drive.slew_rate : largest_angle_step;
+      stage.controller.position_open ? step_fraction * antenna.drive.slew_rate : largest_angle_step;
   const double step = std::min(
       {plant::motor_to_sky(antenna, by_valve), plant::motor_to_sky(antenna, by_torque), largest});
   return std::isfinite(step) ? millidegree * round_down(step / millidegree)
@@ -39,21 +39,21 @@ double step_of(const plant::Antenna& antenna, const CommissioningStage& stage) {
 // The linear plant of the stages does not know friction. In still air: the wind is theirs.
 std::optional<double> limit_cycle_beyond_budget(const Mission& mission,
                                                 const TrackingProblem& problem,
-                                                const control::ControlLaw& law,
+                                                const control::Controller& controller,
                                                 std::uint64_t seed) {
   auto options = comparison_options(mission, seed);
   options.wind_duration = 1.0;
-  const auto run = run_in_time_domain(mission, problem, law, options);
-  if (!run || holds_still(run->hunting, options.tightest_budget)) return std::nullopt;
-  return hunting_seen(run->hunting) ? hunting_amplitude(run->hunting)
-                                    : std::numeric_limits<double>::infinity();
+  const auto run = run_in_time_domain(mission, problem, controller, options);
+  if (!run || is_limit_cycle_free(run->limit_cycles, options.tightest_budget)) return std::nullopt;
+  return limit_cycle_seen(run->limit_cycles) ? limit_cycle_amplitude(run->limit_cycles)
+                                             : std::numeric_limits<double>::infinity();
 }
 
 // Places of the gains that act.
-std::vector<std::size_t> acting_places(const StageLaw& stage) {
+std::vector<std::size_t> acting_places(const StageController& stage) {
   std::vector<std::size_t> places;
   std::size_t place = 0;
-  for (const auto& block : stage.law.structure.blocks()) {
+  for (const auto& block : stage.controller.structure.blocks()) {
     const bool outer =
         block.path == control::LoopPath::position || block.path == control::LoopPath::compliance;
     for (std::size_t i = 0; i < block.gains.size(); ++i, ++place) {
@@ -65,12 +65,12 @@ std::vector<std::size_t> acting_places(const StageLaw& stage) {
 
 }  // namespace
 
-std::vector<ActingGain> acting_gains(const StageLaw& stage, const StageLaw* before) {
+std::vector<ActingGain> acting_gains(const StageController& stage, const StageController* before) {
   const auto acted_before = before != nullptr ? acting_places(*before) : std::vector<std::size_t>{};
   const auto same = [&](std::size_t place, std::size_t other) {
-    return before->law.structure.gains()[other].symbol ==
-               stage.law.structure.gains()[place].symbol &&
-           before->law.gains[other] == stage.law.gains[place];
+    return before->controller.structure.gains()[other].symbol ==
+               stage.controller.structure.gains()[place].symbol &&
+           before->controller.gains[other] == stage.controller.gains[place];
   };
   std::vector<ActingGain> gains;
   for (const std::size_t place : acting_places(stage)) {
@@ -81,25 +81,28 @@ std::vector<ActingGain> acting_gains(const StageLaw& stage, const StageLaw* befo
   return gains;
 }
 
-const TunedLaw* commissionable(const ControllerStudy& study) {
-  const TunedLaw* law = recommended_or(study, Fitness::lost_in_wind);
-  return law != nullptr && law->tuned_for == TunedFor::robust && law->goals_met ? law : nullptr;
+const TunedController* commissionable(const ControllerStudy& study) {
+  const TunedController* controller = recommended_or(study, Fitness::lost_in_wind);
+  return controller != nullptr && controller->tuned_for == TunedFor::robust &&
+                 controller->constraints_met
+             ? controller
+             : nullptr;
 }
 
 CommandedMove commissioning_move(const Mission& mission) {
   const double rate =
-      plant::sky_to_motor(mission.antenna, move_share * mission.antenna.drive.slew_rate);
+      plant::sky_to_motor(mission.antenna, move_fraction * mission.antenna.drive.slew_rate);
   return {rate, rate / move_ramp};
 }
 
 CommissionStudy study_commission(const Mission& mission, const PlantEnsemble& ensemble,
-                                 const control::ControlLaw& target,
+                                 const control::Controller& target,
                                  const CommissioningOptions& options, std::uint64_t seed) {
   CommissionStudy study;
   study.problem = tracking_problem(mission);
   study.move = commissioning_move(mission);
-  std::optional<control::ControlLaw> found;
-  if (!mission.present_controllers.empty()) found = mission.present_controllers.front().law;
+  std::optional<control::Controller> found;
+  if (!mission.present_controllers.empty()) found = mission.present_controllers.front().controller;
   study.plan =
       plan_commissioning(study.problem, ensemble.members, found, target, study.move, options);
   for (const auto& stage : study.plan.stages) {

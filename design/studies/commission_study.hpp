@@ -30,7 +30,7 @@ struct CommissionStudy {
 /// The controller of a study that commissioning stages can lead to: the recommended one, accepting
 /// at worst a loss in wind. It must be tuned to meet every constraint on every ensemble member.
 /// Null if there is none.
-const TunedLaw* commissionable(const ControllerStudy& study);
+const TunedController* commissionable(const ControllerStudy& study);
 
 /// A gain that acts in a stage. With the position loop open, the gains of the position and
 /// compliance paths do not act.
@@ -42,7 +42,7 @@ struct ActingGain {
 
 /// The acting gains in the controller's order. `before`: the stage before; null for the first
 /// stage, whose gains all count as unchanged.
-std::vector<ActingGain> acting_gains(const StageLaw& stage, const StageLaw* before);
+std::vector<ActingGain> acting_gains(const StageController& stage, const StageController* before);
 
 /// The move that checks the last stages, feasible on every antenna: a twentieth of the slew rate,
 /// reached in two seconds. At the motor shaft.
@@ -52,7 +52,7 @@ CommandedMove commissioning_move(const Mission& mission);
 /// member of the ensemble. The result does not depend on the number of threads. @throws as
 /// plan_commissioning.
 CommissionStudy study_commission(const Mission& mission, const PlantEnsemble& ensemble,
-                                 const control::ControlLaw& target,
+                                 const control::Controller& target,
                                  const CommissioningOptions& options, std::uint64_t seed);
 
 }  // namespace boresight::design

@@ -12,28 +12,28 @@ namespace boresight::design {
 namespace {
 
 // The usable designs for the same purpose and wind speed.
-std::vector<NamedController> alternatives(const TuningStudy& section, const TunedLaw& best) {
-  std::vector<NamedController> laws;
-  for (const auto& row : section.laws) {
+std::vector<NamedController> alternatives(const TuningStudy& section, const TunedController& best) {
+  std::vector<NamedController> controllers;
+  for (const auto& row : section.controllers) {
     if (row.tuned_for != best.tuned_for || row.wind_speed != best.wind_speed || !row.usable()) {
       continue;
     }
-    laws.push_back({description_of(row), row.design.tuning.law});
+    controllers.push_back({description_of(row), row.design.tuning.controller});
   }
-  return laws;
+  return controllers;
 }
 
-LawInTime judged(const TimeDomainStudy::Candidate& run, double error) {
-  const auto& [law, result, rms] = run;
-  return {.still = holds_still(result.hunting, error),
-          .hunting = hunting_amplitude(result.hunting),
-          .beam_rms = result.wind.beam_rms,
-          .hunting_seen = hunting_seen(result.hunting),
+ControllerInTime evaluated(const TimeDomainStudy::Candidate& run, double error) {
+  const auto& [controller, result, rms] = run;
+  return {.limit_cycle_free = is_limit_cycle_free(result.limit_cycles, error),
+          .limit_cycles = limit_cycle_amplitude(result.limit_cycles),
+          .boresight_rms = result.wind.boresight_rms,
+          .limit_cycle_seen = limit_cycle_seen(result.limit_cycles),
           .expected = rms};
 }
 
-void limit_speeds(const Mission& mission, TunedLaw& row) {
-  row.speed_limits = budget_speeds(tracking_problem(mission), row.design.tuning.law,
+void limit_speeds(const Mission& mission, TunedController& row) {
+  row.speed_limits = budget_speeds(tracking_problem(mission), row.design.tuning.controller,
                                    mission.budgets, row.effect());
 }
 
@@ -44,38 +44,39 @@ bool needed(const TuningStudy& section, double speed) {
 
 }  // namespace
 
-std::optional<EnsembleCurves> curves_of(const TuningStudy& study, const TunedLaw& row,
+std::optional<EnsembleCurves> curves_of(const TuningStudy& study, const TunedController& row,
                                         const PlantEnsemble& ensemble, unsigned threads) {
   if (!row.stable() || !row.ensemble || ensemble.members.empty()) return std::nullopt;
   TrackingProblem problem = study.problem;
   problem.wind.mean_speed = row.wind_speed;
-  return ensemble_curves(problem, ensemble.members, row.design.tuning.law, *row.ensemble,
+  return ensemble_curves(problem, ensemble.members, row.design.tuning.controller, *row.ensemble,
                          highest_compared_speed(row.wind_speed, row.speed_limits), threads);
 }
 
-std::string description_of(const TunedLaw& row) {
+std::string description_of(const TunedController& row) {
   return fmt::format("{}, {}", row.structure, to_string(row.tuned_for));
 }
 
 std::optional<TimeDomainStudy::Candidate> run_of(const TimeDomainStudy& section,
-                                                 const TunedLaw& row) {
+                                                 const TunedController& row) {
   if (section.wind_speed != row.wind_speed) return std::nullopt;
-  const std::string law = description_of(row);
-  if (section.law == law) return section.own();
-  const auto one = std::ranges::find(section.candidates, law, &TimeDomainStudy::Candidate::law);
+  const std::string controller = description_of(row);
+  if (section.controller == controller) return section.own();
+  const auto one =
+      std::ranges::find(section.candidates, controller, &TimeDomainStudy::Candidate::controller);
   return one == section.candidates.end() ? std::nullopt : std::optional(*one);
 }
 
-void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, TunedFor purpose,
-                   std::uint64_t seed, unsigned threads, const std::function<bool()>& interrupted,
-                   TuningStudy& section) {
+void evaluate_in_time(const Mission& mission, const TimeDomainStudy* compared, TunedFor purpose,
+                      std::uint64_t seed, unsigned threads,
+                      const std::function<bool()>& interrupted, TuningStudy& section) {
   if (compared == nullptr) return;
   const double error = tightest_budget(mission);
-  std::vector<TunedLaw*> to_run;
-  for (auto& row : section.laws) {
+  std::vector<TunedController*> to_run;
+  for (auto& row : section.controllers) {
     if (row.tuned_for != purpose || !row.usable()) continue;
     if (const auto run = run_of(*compared, row)) {
-      row.in_time = judged(*run, error);
+      row.in_time = evaluated(*run, error);
       limit_speeds(mission, row);
     } else if (needed(section, row.wind_speed)) {
       to_run.push_back(&row);
@@ -84,24 +85,27 @@ void judge_in_time(const Mission& mission, const TimeDomainStudy* compared, Tune
   const auto options = comparison_options(mission, seed);
   numerics::for_each_index(to_run.size(), threads, [&](std::size_t i) {
     if (interrupted && interrupted()) return;
-    TunedLaw& row = *to_run[i];
+    TunedController& row = *to_run[i];
     auto problem = tracking_problem(mission);
     problem.wind.mean_speed = row.wind_speed;
-    const auto run = compare_in_time_domain(mission, problem,
-                                            {description_of(row), row.design.tuning.law}, options);
+    const auto run = compare_in_time_domain(
+        mission, problem, {description_of(row), row.design.tuning.controller}, options);
     if (!run) return;
-    row.in_time = judged(*run, error);
+    row.in_time = evaluated(*run, error);
     limit_speeds(mission, row);
   });
 }
 
-const TunedLaw* shown_law(const TuningStudy& section, const TimeDomainStudy* in_time) {
-  if (const TunedLaw* recommended = recommended_law(section)) return recommended;
-  const TunedLaw* best = best_law(section);
+const TunedController* shown_controller(const TuningStudy& section,
+                                        const TimeDomainStudy* in_time) {
+  if (const TunedController* recommended = recommended_tuned_controller(section))
+    return recommended;
+  const TunedController* best = best_controller(section);
   if (best == nullptr || in_time == nullptr) return best;
-  for (const auto& law : section.laws) {
-    if (description_of(law) == in_time->law && law.wind_speed == best->wind_speed && law.usable()) {
-      return &law;
+  for (const auto& controller : section.controllers) {
+    if (description_of(controller) == in_time->controller &&
+        controller.wind_speed == best->wind_speed && controller.usable()) {
+      return &controller;
     }
   }
   return best;
@@ -110,22 +114,23 @@ const TunedLaw* shown_law(const TuningStudy& section, const TimeDomainStudy* in_
 ControllerStudy study_controllers(const Mission& mission, const PlantEnsemble& ensemble,
                                   const TuneOptions& options, ChoiceDetail detail) {
   ControllerStudy study{tune_structures(mission, ensemble, options), std::nullopt};
-  const TunedLaw* best = best_law(study.tuned);
+  const TunedController* best = best_controller(study.tuned);
   if (best == nullptr || (options.interrupted && options.interrupted())) return study;
   auto problem = tracking_problem(mission);
   problem.wind.mean_speed = best->wind_speed;
   study.time_domain = choose_in_time_domain(mission, problem, alternatives(study.tuned, *best),
                                             options.seed, options.threads, detail);
-  judge_in_time(mission, study.time_domain ? &*study.time_domain : nullptr, best->tuned_for,
-                options.seed, options.threads, options.interrupted, study.tuned);
+  evaluate_in_time(mission, study.time_domain ? &*study.time_domain : nullptr, best->tuned_for,
+                   options.seed, options.threads, options.interrupted, study.tuned);
   return study;
 }
 
-const TunedLaw* recommended_or(const ControllerStudy& study, Fitness accepted) {
-  if (const TunedLaw* law = recommended_law(study.tuned)) return law;
+const TunedController* recommended_or(const ControllerStudy& study, Fitness accepted) {
+  if (const TunedController* controller = recommended_tuned_controller(study.tuned))
+    return controller;
   // One that was not simulated beside others that limit-cycle is none to prefer.
   if (study.time_domain && accepted >= Fitness::lost_in_wind) {
-    return shown_law(study.tuned, &*study.time_domain);
+    return shown_controller(study.tuned, &*study.time_domain);
   }
   if (study.tuned.wind_speeds.empty()) return nullptr;
   return recommended_at(study.tuned, study.tuned.wind_speeds.front(), true, {.accepted = accepted});

@@ -18,7 +18,7 @@ ErrorBudget error_budget(const TrackingProblem& problem, const Design& design,
     if (simulated > linear) {
       budget.nonlinearities = std::sqrt((simulated - linear) * (simulated + linear));
     }
-    budget.limit_cycle = limit_cycle_rms(hunting_amplitude(in_time->result.hunting));
+    budget.limit_cycle = limit_cycle_rms(limit_cycle_amplitude(in_time->result.limit_cycles));
   }
   budget.total = std::hypot(linear, budget.nonlinearities, budget.limit_cycle);
   budget.static_flexure = std::abs(static_bending(problem));

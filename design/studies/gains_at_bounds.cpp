@@ -82,19 +82,20 @@ bool same_bound(const ReachedBound& one, const ReachedBound& other) {
          std::abs(one.value() - other.value()) <= printed * other.value();
 }
 
-void add_law(const SearchedLaw& law, std::size_t gain, std::vector<ReachedBound>& reached) {
-  const control::LoopStructure& structure = law.tuning->law.structure;
+void add_controller(const SearchedController& controller, std::size_t gain,
+                    std::vector<ReachedBound>& reached) {
+  const control::LoopStructure& structure = controller.tuning->controller.structure;
   const control::GainDescription& description = structure.gains()[gain];
-  const double value = law.tuning->law.gains.at(gain);
-  const ReachedBound own{description, ends_at_upper(description, value), law.sample_time, {}, {},
-                         {}};
+  const double value = controller.tuning->controller.gains.at(gain);
+  const ReachedBound own{
+      description, ends_at_upper(description, value), controller.sample_time, {}, {}, {}};
   auto found = std::ranges::find_if(
       reached, [&](const ReachedBound& bound) { return same_bound(bound, own); });
   if (found == reached.end()) found = reached.insert(found, own);
-  found->laws.push_back(law.name);
+  found->controllers.push_back(controller.name);
   const auto block = block_above(structure, gain);
-  const bool beyond =
-      law.sample_time > 0.0 && own.upper && value > highest_frequency(law.sample_time);
+  const bool beyond = controller.sample_time > 0.0 && own.upper &&
+                      value > highest_frequency(controller.sample_time);
   if (!block || !beyond) return;
   found->idle = structure.blocks()[*block].kind;
   add_simpler(structure, *block, found->simpler);
@@ -106,17 +107,17 @@ double highest_frequency(double sample_time) {
   return std::numbers::pi / sample_time;
 }
 
-std::vector<ReachedBound> reached_bounds(const std::vector<SearchedLaw>& laws) {
+std::vector<ReachedBound> reached_bounds(const std::vector<SearchedController>& controllers) {
   std::vector<ReachedBound> reached;
-  for (const auto& one : laws) {
+  for (const auto& one : controllers) {
     const auto& tuning = *one.tuning;
     if (tuning.status == TuningStatus::unstable) continue;
-    const auto& descriptions = tuning.law.structure.gains();
+    const auto& descriptions = tuning.controller.structure.gains();
     // Without gains there is no law.
-    for (std::size_t k = 0; k < tuning.law.gains.size(); ++k) {
+    for (std::size_t k = 0; k < tuning.controller.gains.size(); ++k) {
       const auto& names = tuning.gains_at_bound;
       if (std::ranges::find(names, descriptions[k].name) == names.end()) continue;
-      add_law(one, k, reached);
+      add_controller(one, k, reached);
     }
   }
   return reached;

@@ -10,7 +10,7 @@
 namespace boresight::design {
 
 /// A controller with the name that its user gave it, and the search that found it.
-struct SearchedLaw {
+struct SearchedController {
   std::string name;
   const TuningResult* tuning = nullptr;
   double sample_time = 0.0;  // s, of the computer that runs it; 0: unknown
@@ -26,8 +26,8 @@ struct SimplerStructure {
 struct ReachedBound {
   control::GainDescription gain;
   bool upper = false;
-  double sample_time = 0.0;       // s, of these controllers
-  std::vector<std::string> laws;  // names
+  double sample_time = 0.0;              // s, of these controllers
+  std::vector<std::string> controllers;  // names
   /// The kind of block (lag, lead or notch) that has no effect in a sampled controller: this corner
   /// of it ends at its upper bound above highest_frequency(sample_time). None where the sample time
   /// is unknown.
@@ -42,7 +42,7 @@ struct ReachedBound {
 double highest_frequency(double sample_time);
 
 /// Each bound once, in the order of the controllers. Unstable controllers are skipped.
-std::vector<ReachedBound> reached_bounds(const std::vector<SearchedLaw>& laws);
+std::vector<ReachedBound> reached_bounds(const std::vector<SearchedController>& controllers);
 
 /// True if one of the controller's reached_bounds has an idle block: a corner above
 /// highest_frequency(sample_time). `sample_time` in s; 0: unknown.

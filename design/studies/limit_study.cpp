@@ -10,16 +10,16 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
                                 unsigned threads) {
   TrackingProblem problem = tracking_problem(mission);
   problem.wind.mean_speed = wind_speed;
-  std::vector<NamedLaw> laws;
-  for (const TunedLaw& row : section.laws) {
+  std::vector<DescribedController> controllers;
+  for (const TunedController& row : section.controllers) {
     if (row.wind_speed != wind_speed || !row.stable()) continue;
-    laws.push_back(
-        {fmt::format("{}, {}", row.structure, to_string(row.tuned_for)), row.design.tuning.law});
+    controllers.push_back({fmt::format("{}, {}", row.structure, to_string(row.tuned_for)),
+                           row.design.tuning.controller});
   }
   PointingLimitOptions options;
   options.sample_time = control::sample_time_of(problem.delay);
   options.threads = threads;
-  return pointing_limit(problem, section.goals, ensemble.members, laws, options);
+  return pointing_limit(problem, section.goals, ensemble.members, controllers, options);
 }
 
 }  // namespace boresight::design

@@ -6,7 +6,7 @@
 
 namespace boresight::design {
 
-std::vector<RuleVerdict> judge_rules(const Mission& mission, const MatchingStudy& study) {
+std::vector<RuleVerdict> evaluate_rules(const Mission& mission, const MatchingStudy& study) {
   const plant::Antenna& antenna = mission.antenna;
   const double load = gear_train_inertia(antenna) + antenna_inertia(antenna);
   const auto disks_at = [&](double ratio) { return disks_at_unit_ratio(antenna, ratio * load); };
@@ -19,7 +19,7 @@ std::vector<RuleVerdict> judge_rules(const Mission& mission, const MatchingStudy
     for (const auto& series : study.series) {
       rule.cost.push_back(std::numeric_limits<double>::quiet_NaN());
       if (!rule.disks || !series.best || *rule.disks > study.points.back().disks) continue;
-      const double disks = *rule.disks, least = series.values[*series.best].beam_rms;
+      const double disks = *rule.disks, minimum = series.values[*series.best].boresight_rms;
       for (std::size_t i = 0; i + 1 < study.points.size(); ++i) {
         const double from = study.points[i].disks, to = study.points[i + 1].disks;
         if (disks < from || disks > to) continue;
@@ -27,7 +27,7 @@ std::vector<RuleVerdict> judge_rules(const Mission& mission, const MatchingStudy
         const auto& other = series.values[i + 1];
         if (!one.found || !other.found) break;
         const double part = (disks - from) / (to - from);
-        rule.cost.back() = std::lerp(one.beam_rms, other.beam_rms, part) / least - 1.0;
+        rule.cost.back() = std::lerp(one.boresight_rms, other.boresight_rms, part) / minimum - 1.0;
         break;
       }
     }

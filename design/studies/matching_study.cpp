@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/matching_rules.hpp>
 #include <boresight/design/studies/matching_study.hpp>
@@ -32,18 +32,19 @@ std::vector<MatchPoint> points_of(const Mission& mission, const MatchOptions& op
   if (options.points < 4) {
     throw InvalidInput(fmt::format("match: expected at least 4 points, found {}", options.points));
   }
-  double most = options.most_disks;
-  if (most == 0.0) most = mission.most_disks;
-  if (!(most > 0.0) || !std::isfinite(most)) {
-    throw InvalidInput(fmt::format("match: expected more than 0 disks at most, found {:g}", most));
+  double maximum = options.max_disks;
+  if (maximum == 0.0) maximum = mission.max_disks;
+  if (!(maximum > 0.0) || !std::isfinite(maximum)) {
+    throw InvalidInput(
+        fmt::format("match: expected more than 0 disks at most, found {:g}", maximum));
   }
   std::vector<MatchPoint> points;
   for (int i = 0; i < options.points; ++i) {
-    points.push_back({.disks = most * i / (options.points - 1)});
+    points.push_back({.disks = maximum * i / (options.points - 1)});
   }
   const auto mark = [&](double disks, bool MatchPoint::*which) {
     auto same = std::ranges::find_if(
-        points, [&](const auto& point) { return std::abs(point.disks - disks) < 1e-6 * most; });
+        points, [&](const auto& point) { return std::abs(point.disks - disks) < 1e-6 * maximum; });
     if (same == points.end()) {
       same = points.insert(points.end(), MatchPoint{.disks = disks, .on_grid = false});
     }
@@ -60,14 +61,14 @@ std::vector<MatchPoint> points_of(const Mission& mission, const MatchOptions& op
 // Rate and acceleration at the motor with whatever acceleration the drive has reserve for.
 control::CommandLimits reach_of(const plant::Antenna& antenna, double inertia) {
   constexpr double any_acceleration = std::numeric_limits<double>::infinity();
-  return within_reach(nonlinear_antenna(antenna), inertia,
-                      {antenna.drive.slew_rate * gear_ratio(antenna), any_acceleration});
+  return achievable_limits(nonlinear_antenna(antenna), inertia,
+                           {antenna.drive.slew_rate * gear_ratio(antenna), any_acceleration});
 }
 
 // The mission's slew rate, or four fifths of the highest that the supply holds against friction if
-// that is less (as design::within_reach has it): on the nonlinear antenna, or without one by the
-// torque and by what the valve lets through without load.
-double rate_within_reach(const plant::Antenna& antenna) {
+// that is less (as design::achievable_limits has it): on the nonlinear antenna, or without one by
+// the torque and by what the valve lets through without load.
+double achievable_rate(const plant::Antenna& antenna) {
   const double ratio = gear_ratio(antenna);
   if (antenna.nonlinear) {
     return reach_of(antenna, plant::reflected_inertia(linear_plant(antenna))).rate / ratio;
@@ -121,10 +122,10 @@ void describe(const Mission& mission, const MatchingStudy& study, MatchPoint& po
       2.0 * std::sqrt(point.motor_to_load_ratio) / (1.0 + point.motor_to_load_ratio);
 }
 
-void look_at_position_loop(const TrackingProblem& problem, const control::ControlLaw& law,
+void look_at_position_loop(const TrackingProblem& problem, const control::Controller& controller,
                            const plant::PointResponse& response, MatchValue& value) {
   const auto loop = [&](double w) {
-    return control::loop_gain(response(w), w, law, problem.delay,
+    return control::loop_gain(response(w), w, controller, problem.delay,
                               control::LoopBreak::position_loop);
   };
   const auto band = analysis_band(problem);
@@ -147,20 +148,20 @@ void look_at_position_loop(const TrackingProblem& problem, const control::Contro
 }
 
 MatchValue look_at(const Mission& mission, const MatchingStudy& study, const MatchPoint& point,
-                   const MatchedLaw& law, const WindTable& wind) {
+                   const MatchedController& controller, const WindTable& wind) {
   MatchValue value;
-  value.beam_rms = value.wind_rms = value.noise_rms = value.valve_effort = nan;
-  value.found = law.status == TuningStatus::optimal;
-  if (law.status == TuningStatus::unstable) return value;
+  value.boresight_rms = value.wind_rms = value.noise_rms = value.control_effort = nan;
+  value.found = controller.status == TuningStatus::optimal;
+  if (controller.status == TuningStatus::unstable) return value;
   auto problem = tracking_problem(mission, with_disks(mission, point.disks));
   problem.points_per_decade = 100;
   auto evaluator = make_adaptive_evaluator(problem, wind);
   evaluator.look_at_gusts(true);
-  const auto evaluation = evaluator.evaluate(law.law, false);
+  const auto evaluation = evaluator.evaluate(controller.controller, false);
   value.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;
   value.noise_rms = std::sqrt(evaluation.noise_variance) / problem.gear_ratio;
-  value.beam_rms = std::hypot(value.wind_rms, value.noise_rms);
-  value.valve_effort = std::sqrt(evaluation.effort_variance);
+  value.boresight_rms = std::hypot(value.wind_rms, value.noise_rms);
+  value.control_effort = std::sqrt(evaluation.effort_variance);
   const auto& drive = problem.plant.drive;
   const double mean =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
@@ -173,47 +174,47 @@ MatchValue look_at(const Mission& mission, const MatchingStudy& study, const Mat
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     value.margins.at(b) = control::margins(
         [&](double w) {
-          return control::loop_gain(response(w), w, law.law, problem.delay,
+          return control::loop_gain(response(w), w, controller.controller, problem.delay,
                                     control::loop_breaks.at(b));
         },
         grid);
   }
-  look_at_position_loop(problem, law.law, response, value);
-  value.verification = verify(problem, law.law, study.goals);
+  look_at_position_loop(problem, controller.controller, response, value);
+  value.verification = verify(problem, controller.controller, study.goals);
   return value;
 }
 
 // Of the members with the motors of a problem.
 double over_ensemble(const TrackingProblem& problem, const PlantEnsemble& ensemble,
-                     double inertia_factor, const control::ControlLaw& law,
-                     const HardGoals& goals) {
+                     double inertia_factor, const control::Controller& controller,
+                     const Constraints& goals) {
   std::vector<EnsembleMember> members = ensemble.members;
   for (auto& member : members) member.plant.drive.motor_inertia *= inertia_factor;
-  return rms_over_members(judge(problem, members, law, goals, 1));
+  return rms_over_members(evaluate(problem, members, controller, goals, 1));
 }
 
 MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensemble,
                             const MatchingStudy& study, const MatchOptions& how,
                             const MatchPoint& point, const MatchValue& value,
-                            const control::ControlLaw& law,
+                            const control::Controller& controller,
                             const std::shared_ptr<SharedWinds>& winds) {
   const plant::Antenna& antenna = mission.antenna;
   const auto problem = tracking_problem(mission, with_disks(mission, point.disks));
   const auto nonlinear =
       plant::with_parameter(nonlinear_antenna(antenna), plant::AntennaParameter::motor_inertia,
                             problem.plant.drive.motor_inertia);
-  auto loop = make_simulated_loop(problem, nonlinear, law);
+  auto loop = make_simulated_loop(problem, nonlinear, controller);
   loop.encoder_resolution = std::sqrt(12.0) * antenna.sensors.encoder_noise * problem.gear_ratio;
   NonlinearVerificationOptions options;
   options.wind_duration = 1.0;
   options.explain = false;
-  options.hunting_duration = 120.0;
+  options.limit_cycle_duration = 120.0;
   options.tracking_rate = antenna.drive.tracking_rate;
   options.limits = {antenna.drive.slew_rate, 0.2 * degree};
   options.winds = winds;
   auto result = verify_in_time(problem, loop, options);
-  MatchTimeDomain run{std::move(result.hunting), std::move(result.reversal)};
-  if (!value.found || !holds_still(run.hunting, study.tightest_budget)) return run;
+  MatchTimeDomain run{std::move(result.limit_cycles), std::move(result.reversal)};
+  if (!value.found || !is_limit_cycle_free(run.limit_cycles, study.tightest_budget)) return run;
   // The records of wind of verify_in_time_domain.
   const NonlinearVerificationOptions records;
   run.expected = simulated_rms(problem, loop,
@@ -224,8 +225,9 @@ MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensembl
                                 .shared = winds});
   const double factor =
       problem.plant.drive.motor_inertia / linear_plant(antenna).drive.motor_inertia;
-  run.member_rms = study.members == 0 ? value.beam_rms
-                                      : over_ensemble(problem, ensemble, factor, law, study.goals);
+  run.member_rms = study.members == 0
+                       ? value.boresight_rms
+                       : over_ensemble(problem, ensemble, factor, controller, study.goals);
   return run;
 }
 
@@ -239,7 +241,7 @@ void find_best(const std::vector<MatchPoint>& points, MatchSeries& series) {
   std::vector<std::size_t> grid;
   for (std::size_t i = 0; i < points.size(); ++i) {
     disks.push_back(points[i].disks);
-    rms.push_back(series.values[i].found ? series.values[i].beam_rms : nan);
+    rms.push_back(series.values[i].found ? series.values[i].boresight_rms : nan);
     if (points[i].on_grid) grid.push_back(i);
   }
   series.smoothness = smoothness(series.curve, grid);
@@ -259,7 +261,7 @@ void tune_curves(const Mission& mission, const PlantEnsemble& ensemble, const Ma
   if (options.robust) task.members = ensemble.members;
   study.members = task.members.size();
   task.goals = study.goals;
-  task.soft_goal = study.soft_goal;
+  task.objective = study.objective;
   for (const auto& point : study.points) {
     task.motor_inertia.push_back(
         linear_plant(with_disks(mission, point.disks)).drive.motor_inertia);
@@ -313,7 +315,7 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
   const auto stopped = [&] { return options.interrupted && options.interrupted(); };
   const plant::Antenna& antenna = mission.antenna;
   MatchingStudy study;
-  study.slew_rate = rate_within_reach(antenna);
+  study.slew_rate = achievable_rate(antenna);
   study.slew_by_simulation = antenna.nonlinear.has_value();
   study.slew_distance = 10.0 * degree;
   study.tracking_rate = antenna.drive.tracking_rate;
@@ -323,7 +325,7 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
   study.points = points_of(mission, options);
   for (auto& point : study.points) describe(mission, study, point);
   study.goals = constraints(mission);
-  study.soft_goal = mission.objective;
+  study.objective = mission.objective;
   study.starts = options.starts;
   tune_curves(mission, ensemble, options, structures, study);
 
@@ -337,17 +339,17 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
     MatchSeries& series = study.series[i % structures.size()];
     const std::size_t p = i / structures.size();
     const MatchPoint& point = study.points[p];
-    const auto& law = series.curve.laws[p];
-    series.values[p] = look_at(mission, study, point, law, wind);
-    if (antenna.nonlinear && !stopped() && law.status != TuningStatus::unstable &&
+    const auto& controller = series.curve.controllers[p];
+    series.values[p] = look_at(mission, study, point, controller, wind);
+    if (antenna.nonlinear && !stopped() && controller.status != TuningStatus::unstable &&
         is_chosen(point, options.time_runs)) {
-      series.values[p].time_domain =
-          run_in_time(mission, ensemble, study, options, point, series.values[p], law.law, winds);
+      series.values[p].time_domain = run_in_time(mission, ensemble, study, options, point,
+                                                 series.values[p], controller.controller, winds);
     }
     counter.step();
   });
   for (auto& series : study.series) find_best(study.points, series);
-  study.rules = judge_rules(mission, study);
+  study.rules = evaluate_rules(mission, study);
   if (options.variants && !stopped()) vary(mission, options, study);
   if (options.tune_as_built && !stopped()) tune_as_built(mission, ensemble, options, study);
   return study;

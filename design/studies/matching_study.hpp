@@ -35,8 +35,8 @@ struct MatchPoint {
   plant::PlantMode hydraulic = {};
   plant::PlantMode oil_mode = {};  // plant::mode_of_oil
   /// rad/s2 at the sky, at the slew rate: the acceleration that the drive reaches with its reserve
-  /// (design::within_reach). Without Antenna::nonlinear: from the supply's torque less friction,
-  /// without the valve's pressure drop. 0 or less where no torque is left.
+  /// (design::achievable_limits). Without Antenna::nonlinear: from the supply's torque less
+  /// friction, without the valve's pressure drop. 0 or less where no torque is left.
   double acceleration = 0.0;
   double slew_time = 0.0;  // s for slew_distance at the slew rate; infinite without acceleration
   double two_mass_damping = 0.0;  // the rule zeta = 1/2 sqrt(J_L/J_m)
@@ -48,7 +48,7 @@ struct MatchPoint {
 /// A controller on the nonlinear antenna: in still air, at rest and at the tracking rate, and in
 /// wind.
 struct MatchTimeDomain {
-  std::vector<HuntingResult> hunting;
+  std::vector<LimitCycleResult> limit_cycles;
   std::optional<ReversalResult> reversal;
   /// Over several records of wind. None for a controller with a limit cycle beyond the tightest
   /// budget.
@@ -61,8 +61,8 @@ struct MatchTimeDomain {
 /// One controller of the study on the mission's plant. Angles at the sky, per axis.
 struct MatchValue {
   bool found = false;  // some controller meets its constraints on every plant
-  double beam_rms = 0.0, wind_rms = 0.0, noise_rms = 0.0;  // rad
-  double valve_effort = 0.0;  // rad/s, valve command rms from sensor noise
+  double boresight_rms = 0.0, wind_rms = 0.0, noise_rms = 0.0;  // rad
+  double control_effort = 0.0;  // rad/s, valve command rms from sensor noise
   /// Mean wind plus crest factor times the rms of the gusts.
   double gust_demand = 0.0;  // rad/s of valve
   double gust_torque = 0.0;  // N m
@@ -141,13 +141,13 @@ struct MatchingStudy {
   std::vector<MatchVariants> variants;
   std::vector<FrictionThreshold> thresholds;
   std::vector<RuleVerdict> rules;
-  /// study_controllers of the antenna as built; its recommended_law is the controller for these
-  /// motors. None where it was not requested, or interrupted.
+  /// study_controllers of the antenna as built; its recommended_tuned_controller is the controller
+  /// for these motors. None where it was not requested, or interrupted.
   std::optional<TuningStudy> tuned_as_built;
   double wind_speed = 0.0;
   plant::WindModel wind_model = plant::WindModel::coherence;
-  HardGoals goals;
-  SoftGoal soft_goal;
+  Constraints goals;
+  Objective objective;
   std::size_t members = 0;
   double tolerance = 0.0;  // of ln rms: a smaller improvement does not count
   int starts = 0;          // random starts per controller
@@ -158,7 +158,7 @@ struct MatchingStudy {
   /// rad/s at the sky: the mission's, or four fifths of the rate that the supply sustains against
   /// friction.
   double slew_rate = 0.0;
-  bool slew_by_simulation = false;  // rate and acceleration by design::within_reach
+  bool slew_by_simulation = false;  // rate and acceleration by design::achievable_limits
   double tracking_rate = 0.0;       // rad/s at the sky
   double tracking_friction = 0.0;   // N m s/rad
   double friction = 0.0;            // N m s/rad, of the linear plant
@@ -171,8 +171,8 @@ enum class MatchTimeRuns { none, few, all };
 
 struct MatchOptions {
   std::vector<NamedStructure> structures;  // empty: as the mission has it
-  int points = 25;          // evenly spaced in disks, in addition to ratio 1 and as built
-  double most_disks = 0.0;  // 0: as the mission has it
+  int points = 25;         // evenly spaced in disks, in addition to ratio 1 and as built
+  double max_disks = 0.0;  // 0: as the mission has it
   int starts = 4;
   MatchTimeRuns time_runs = MatchTimeRuns::few;
   bool robust = true;  // every constraint met on every ensemble member, not on one plant alone
@@ -190,7 +190,7 @@ struct MatchOptions {
 /// Tunes every structure robustly at every motor inertia (match_motors) and evaluates the results.
 /// It then computes what moves the optimum (vary), and the controllers of the antenna as built. The
 /// result does not depend on the number of threads.
-/// @throws InvalidInput for duplicate structures, fewer than 4 points, a most_disks that is not
+/// @throws InvalidInput for duplicate structures, fewer than 4 points, a max_disks that is not
 /// positive, and as plant::changed, constraints, match_motors and tune_structures.
 MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemble,
                              const MatchOptions& options);

@@ -69,9 +69,9 @@ std::vector<double> curve_of(const Mission& mission, const MatchingStudy& study,
   how.stop = options.interrupted;
   const auto curves = match_motors(task, how);
   std::vector<double> rms;
-  for (const auto& law : curves.curves.front().laws) {
-    const bool met = law.status == TuningStatus::optimal;
-    rms.push_back(met ? law.soft_rms / task.problem.gear_ratio : nan);
+  for (const auto& controller : curves.curves.front().controllers) {
+    const bool met = controller.status == TuningStatus::optimal;
+    rms.push_back(met ? controller.soft_rms / task.problem.gear_ratio : nan);
   }
   return rms;
 }
@@ -79,8 +79,8 @@ std::vector<double> curve_of(const Mission& mission, const MatchingStudy& study,
 // The largest over the least, less 1; NaN with a gap.
 double spread_of(const std::vector<double>& rms) {
   if (std::ranges::any_of(rms, [](double value) { return !std::isfinite(value); })) return nan;
-  const auto [least, largest] = std::ranges::minmax(rms);
-  return largest / least - 1.0;
+  const auto [minimum, largest] = std::ranges::minmax(rms);
+  return largest / minimum - 1.0;
 }
 
 // The slope at which the spread falls below what counts, on the way up from the mission's: by
@@ -92,15 +92,15 @@ FrictionThreshold find_threshold(const MatchingStudy& study, const MatchSeries& 
   threshold.spread_at_nominal = spread_at(study.friction);
   threshold.spread_at_tracking = spread_at(study.tracking_friction);
   const auto small = [&](double slope) { return spread_at(slope) < threshold.spread; };
-  constexpr double most = 300.0;
+  constexpr double maximum = 300.0;
   double low = std::max(study.friction, 0.5), high = low;
-  threshold.searched_to = most;
+  threshold.searched_to = maximum;
   if (small(low)) {
     threshold.slope = study.friction;
     return threshold;
   }
-  while (high < most) {
-    high = std::min(2.0 * high, most);
+  while (high < maximum) {
+    high = std::min(2.0 * high, maximum);
     if (small(high)) break;
     low = high;
   }
@@ -141,8 +141,8 @@ std::vector<const MatchSeries*> worth_varying(const MatchingStudy& study) {
 void vary(const Mission& mission, const MatchOptions& options, MatchingStudy& study) {
   constexpr int coarse = 7;
   std::vector<double> disks;
-  const double most = study.points.back().disks;
-  for (int i = 0; i < coarse; ++i) disks.push_back(most * i / (coarse - 1));
+  const double maximum = study.points.back().disks;
+  for (int i = 0; i < coarse; ++i) disks.push_back(maximum * i / (coarse - 1));
   const auto changes = changes_of(mission, study);
   const auto chosen = worth_varying(study);
   const std::size_t all = chosen.size() * (changes.size() + 1);
@@ -163,7 +163,7 @@ void vary(const Mission& mission, const MatchOptions& options, MatchingStudy& st
       variants.variants.push_back(std::move(variant));
       step();
     }
-    const std::vector<double> few{0.0, most / 4.0, most / 2.0, most};
+    const std::vector<double> few{0.0, maximum / 4.0, maximum / 2.0, maximum};
     auto threshold = find_threshold(study, *series, [&](double slope) {
       return spread_of(curve_of(mission, study, options, series->curve.structure, few,
                                 {"", {plant::set_to("drive.viscous_friction", slope)}, {}}));

@@ -11,13 +11,13 @@
 namespace boresight::design {
 
 double span_of(const MatchSeries& series) {
-  double least = HUGE_VAL, largest = 0.0;
+  double minimum = HUGE_VAL, largest = 0.0;
   for (const auto& value : series.values) {
     if (!value.found) continue;
-    least = std::min(least, value.beam_rms);
-    largest = std::max(largest, value.beam_rms);
+    minimum = std::min(minimum, value.boresight_rms);
+    largest = std::max(largest, value.boresight_rms);
   }
-  return largest > 0.0 ? largest / least - 1.0 : 0.0;
+  return largest > 0.0 ? largest / minimum - 1.0 : 0.0;
 }
 
 bool hardly_matters(const MatchingStudy& study) {
@@ -36,44 +36,47 @@ std::vector<VariantChange> variant_changes(const MatchingStudy& study) {
   for (const auto& variants : study.variants) {
     const MatchVariant& own = variants.variants.front();
     if (!own.best || !weighed(study, variants.structure)) continue;
-    const double least = own.rms[*own.best];
+    const double minimum = own.rms[*own.best];
     for (const auto& variant : variants.variants) {
       if (!variant.best) continue;
       changes.push_back(
-          {variant.name, variants.structure, std::abs(variant.rms[*variant.best] / least - 1.0)});
+          {variant.name, variants.structure, std::abs(variant.rms[*variant.best] / minimum - 1.0)});
     }
   }
   return changes;
 }
 
-std::size_t hunting_point(const MatchingStudy& study, const MatchSeries& series) {
+std::size_t limit_cycle_point(const MatchingStudy& study, const MatchSeries& series) {
   const std::size_t built = as_built(study);
   const std::size_t best = series.best.value_or(built);
   return series.values[best].time_domain ? best : built;
 }
 
-std::vector<HuntingResult> hunting_of(const MatchingStudy& study, const MatchSeries& series) {
-  const auto& run = series.values[hunting_point(study, series)].time_domain;
-  return run ? run->hunting : std::vector<HuntingResult>();
+std::vector<LimitCycleResult> limit_cycle_of(const MatchingStudy& study,
+                                             const MatchSeries& series) {
+  const auto& run = series.values[limit_cycle_point(study, series)].time_domain;
+  return run ? run->limit_cycles : std::vector<LimitCycleResult>();
 }
 
-bool hunting_beyond(const MatchingStudy& study, const std::vector<HuntingResult>& hunting) {
-  return hunting_amplitude(hunting) > hunting_limit(study.tightest_budget);
+bool limit_cycle_beyond(const MatchingStudy& study,
+                        const std::vector<LimitCycleResult>& limit_cycles) {
+  return limit_cycle_amplitude(limit_cycles) > limit_cycle_limit(study.tightest_budget);
 }
 
-bool hunts_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point) {
+bool has_limit_cycle_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point) {
   const auto& run = series.values[point].time_domain;
-  return run && !holds_still(run->hunting, study.tightest_budget);
+  return run && !is_limit_cycle_free(run->limit_cycles, study.tightest_budget);
 }
 
-bool hunts(const MatchingStudy& study, const MatchSeries& series) {
-  return hunts_at(study, series, hunting_point(study, series));
+bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series) {
+  return has_limit_cycle_at(study, series, limit_cycle_point(study, series));
 }
 
 // The span of a structure has its best motors at one end, the comparison of structures those as
 // built: what hunts at either has no such rms there.
 bool weighed(const MatchingStudy& study, const MatchSeries& series) {
-  return series.best && !hunts(study, series) && !hunts_at(study, series, as_built(study));
+  return series.best && !has_limit_cycle(study, series) &&
+         !has_limit_cycle_at(study, series, as_built(study));
 }
 
 bool weighed(const MatchingStudy& study, std::string_view structure) {
@@ -87,18 +90,18 @@ namespace {
 // A structure's controller at a point that meets every constraint, as recommend() compares it, with
 // the limit cycles of a point where it ran.
 Assessment assessment_of(const MatchSeries& series, std::size_t point, double budget,
-                         const std::vector<HuntingResult>& hunting) {
+                         const std::vector<LimitCycleResult>& limit_cycles) {
   Assessment candidate;
   candidate.structure = series.name;
   candidate.purpose = DesignPurpose::robust;
   candidate.parts = series.curve.structure.gains().size();
   candidate.stable = candidate.verified = true;
   candidate.nominal_constraints_met = candidate.member_constraints_met = true;
-  candidate.linear_rms = series.values[point].beam_rms;
-  if (!hunting.empty()) {
-    candidate.limit_cycle_amplitude = hunting_amplitude(hunting);
-    candidate.limit_cycles =
-        limit_cycle_verdict(holds_still(hunting, budget), hunting_seen(hunting));
+  candidate.linear_rms = series.values[point].boresight_rms;
+  if (!limit_cycles.empty()) {
+    candidate.limit_cycle_amplitude = limit_cycle_amplitude(limit_cycles);
+    candidate.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(limit_cycles, budget),
+                                                 limit_cycle_seen(limit_cycles));
   }
   return candidate;
 }
@@ -112,7 +115,8 @@ std::optional<RankedMotors> motors_at(const MatchingStudy& study, std::size_t po
     if (!value.found || !value.time_domain || !value.time_domain->expected) continue;
     const MatchTimeDomain& run = *value.time_domain;
     places.push_back(s);
-    candidates.push_back(assessment_of(study.series[s], point, study.tightest_budget, run.hunting));
+    candidates.push_back(
+        assessment_of(study.series[s], point, study.tightest_budget, run.limit_cycles));
     candidates.back().expected = run.expected;
     candidates.back().simulated_rms = run.expected->rms.value;
   }
@@ -125,7 +129,7 @@ std::optional<RankedMotors> motors_at(const MatchingStudy& study, std::size_t po
 
 SimulatedFigure figure_of(const MatchingStudy& study, const RankedMotors& motors) {
   const auto& run = study.series[motors.series].values[motors.point].time_domain;
-  return {*run->expected, hunting_amplitude(run->hunting)};
+  return {*run->expected, limit_cycle_amplitude(run->limit_cycles)};
 }
 
 }  // namespace
@@ -152,32 +156,32 @@ const MatchSeries* recommended_structure(const MatchingStudy& study,
     if (!series.best || !counts(series)) continue;
     structures.push_back(&series);
     candidates.push_back(
-        assessment_of(series, *series.best, study.tightest_budget, hunting_of(study, series)));
+        assessment_of(series, *series.best, study.tightest_budget, limit_cycle_of(study, series)));
   }
   const auto winner = recommend(candidates, {.accepted = Fitness::limit_cycle}).winner;
   return winner ? structures[*winner] : nullptr;
 }
 
 const MatchSeries* most_moved(const MatchingStudy& study) {
-  const MatchSeries* most = nullptr;
+  const MatchSeries* maximum = nullptr;
   for (const auto& series : study.series) {
     if (!weighed(study, series)) continue;
-    if (most == nullptr || span_of(series) > span_of(*most)) most = &series;
+    if (maximum == nullptr || span_of(series) > span_of(*maximum)) maximum = &series;
   }
-  return most;
+  return maximum;
 }
 
 StructuresAsBuilt structures_as_built(const MatchingStudy& study) {
   const std::size_t built = as_built(study);
-  const auto rms = [&](const MatchSeries& series) { return series.values[built].beam_rms; };
+  const auto rms = [&](const MatchSeries& series) { return series.values[built].boresight_rms; };
   StructuresAsBuilt result;
   for (const auto& series : study.series) {
     if (!series.values[built].found || !weighed(study, series)) continue;
     ++result.count;
-    if (result.least == nullptr || rms(series) < rms(*result.least)) result.least = &series;
+    if (result.minimum == nullptr || rms(series) < rms(*result.minimum)) result.minimum = &series;
     if (result.largest == nullptr || rms(series) > rms(*result.largest)) result.largest = &series;
   }
-  if (result.count > 0) result.change = rms(*result.largest) / rms(*result.least) - 1.0;
+  if (result.count > 0) result.change = rms(*result.largest) / rms(*result.minimum) - 1.0;
   return result;
 }
 
@@ -189,7 +193,7 @@ std::vector<double> as_good_elsewhere(const MatchingStudy& study, const MatchSer
     const MatchValue& value = series.values[i];
     const double at = study.points[i].disks;
     if (!value.found || (range.lowest <= at && at <= range.highest)) continue;
-    if (value.beam_rms <= 1.01 * series.values[best].beam_rms) disks.push_back(at);
+    if (value.boresight_rms <= 1.01 * series.values[best].boresight_rms) disks.push_back(at);
   }
   std::ranges::stable_sort(disks, {},
                            [&](double at) { return std::abs(at - study.points[best].disks); });
@@ -208,8 +212,8 @@ RuleCosts costs_of(const MatchingStudy& study, const RuleVerdict& rule) {
   for (std::size_t s = 0; s < rule.cost.size(); ++s) {
     const MatchSeries& series = study.series[s];
     if (!std::isfinite(rule.cost[s]) || !weighed(study, series)) continue;
-    if (rule.cost[s] < costs.least) {
-      costs.least = rule.cost[s];
+    if (rule.cost[s] < costs.minimum) {
+      costs.minimum = rule.cost[s];
       costs.cheapest = &series;
     }
     if (rule.cost[s] > costs.largest) {
@@ -222,9 +226,9 @@ RuleCosts costs_of(const MatchingStudy& study, const RuleVerdict& rule) {
 
 const FrictionThreshold* deciding_friction(const MatchingStudy& study) {
   const FrictionThreshold* threshold = nullptr;
-  const double most = 1.5 * std::max(study.friction, study.tracking_friction);
+  const double maximum = 1.5 * std::max(study.friction, study.tracking_friction);
   for (const auto& one : study.thresholds) {
-    if (!one.slope || *one.slope > most || one.spread_at_nominal < one.spread) continue;
+    if (!one.slope || *one.slope > maximum || one.spread_at_nominal < one.spread) continue;
     if (!weighed(study, one.structure)) continue;
     if (threshold != nullptr && *one.slope >= threshold->slope) continue;
     threshold = &one;

@@ -16,25 +16,26 @@ double span_of(const MatchSeries& series);
 
 /// Index of the point at which a structure's limit cycles are evaluated: its best motors if they
 /// were run on the nonlinear antenna, else as built.
-std::size_t hunting_point(const MatchingStudy& study, const MatchSeries& series);
+std::size_t limit_cycle_point(const MatchingStudy& study, const MatchSeries& series);
 
 /// Limit-cycle runs of a structure at that point; empty without a run.
-std::vector<HuntingResult> hunting_of(const MatchingStudy& study, const MatchSeries& series);
+std::vector<LimitCycleResult> limit_cycle_of(const MatchingStudy& study, const MatchSeries& series);
 
 /// True if such runs show a limit cycle beyond the tightest budget. False where only an incomplete
 /// run leaves the question open.
-bool hunting_beyond(const MatchingStudy& study, const std::vector<HuntingResult>& hunting);
+bool limit_cycle_beyond(const MatchingStudy& study,
+                        const std::vector<LimitCycleResult>& limit_cycles);
 
 /// True if a structure was run at a point and not shown free of limit cycles within the tightest
-/// budget (holds_still): by hunting_beyond, or because a run did not complete.
-bool hunts_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point);
+/// budget (is_limit_cycle_free): by limit_cycle_beyond, or because a run did not complete.
+bool has_limit_cycle_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point);
 
-/// hunts_at its hunting_point: such a structure is excluded whatever its rms in wind.
-bool hunts(const MatchingStudy& study, const MatchSeries& series);
+/// has_limit_cycle_at its limit_cycle_point: such a structure is excluded whatever its rms in wind.
+bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series);
 
 /// True if a structure is eligible when inertias, structures and rules are compared. It has a
 /// controller that meets its constraints, with no limit cycle beyond the tightest budget at its
-/// hunting_point or as built.
+/// limit_cycle_point or as built.
 bool weighed(const MatchingStudy& study, const MatchSeries& series);
 
 /// The same for a structure given by name; false for one that was not studied.
@@ -67,7 +68,7 @@ const MatchSeries* most_moved(const MatchingStudy& study);
 /// The eligible structures that have a controller at the inertia as built.
 struct StructuresAsBuilt {
   std::size_t count = 0;
-  const MatchSeries* least = nullptr;  // by rms; null without any
+  const MatchSeries* minimum = nullptr;  // by rms; null without any
   const MatchSeries* largest = nullptr;
   double change = 0.0;  // the largest rms over the least, less 1
 };
@@ -97,7 +98,7 @@ bool has_optimum(const MatchingStudy& study);
 struct RuleCosts {
   const MatchSeries* cheapest = nullptr;  // null without any
   const MatchSeries* dearest = nullptr;
-  double least = 0.0, largest = 0.0;  // as RuleVerdict::cost
+  double minimum = 0.0, largest = 0.0;  // as RuleVerdict::cost
 };
 RuleCosts costs_of(const MatchingStudy& study, const RuleVerdict& rule);
 

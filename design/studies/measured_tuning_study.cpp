@@ -27,10 +27,10 @@ control::FrequencyBand excited_band(const Eigen::VectorXd& command, double sampl
   for (Index k = half; k + half < power.size(); ++k) {
     smooth[k] = power.segment(k - half, 2 * half + 1).mean();
   }
-  const double least = smooth.maxCoeff() / 900.0;
+  const double minimum = smooth.maxCoeff() / 900.0;
   Index first = half, last = power.size() - half - 1;
-  while (first < last && smooth[first] < least) ++first;
-  while (last > first && smooth[last] < least) --last;
+  while (first < last && smooth[first] < minimum) ++first;
+  while (last > first && smooth[last] < minimum) --last;
   const double bin = 1.0 / (sample_time * static_cast<double>(command.size()));
   return {bin * static_cast<double>(first), bin * static_cast<double>(last)};
 }
@@ -58,7 +58,7 @@ control::MeasuredPlant measured_plant(const identification::MultipleResponseEsti
 // Without an encoder: the motor's angle, and behind it the gear spring and structure of the
 // antenna.
 void assume_encoder(const plant::AntennaPlant& antenna, control::MeasuredPlant& plant) {
-  constexpr double share_uncertain = 0.2;
+  constexpr double fraction_uncertain = 0.2;
   const auto structure = plant::structure_response(antenna.structure, plant.frequency);
   const double corner = antenna.drive.tachometer_corner;
   plant.encoder.resize(plant.frequency.size());
@@ -72,19 +72,19 @@ void assume_encoder(const plant::AntennaPlant& antenna, control::MeasuredPlant& 
     covariance.row(2) = per_tachometer * covariance.row(0);
     covariance.col(2) = std::conj(per_tachometer) * covariance.col(0);
     covariance(2, 2) = std::norm(per_tachometer) * covariance(0, 0) +
-                       std::norm(share_uncertain * (gear - 1.0) / gear * plant.encoder[i]);
+                       std::norm(fraction_uncertain * (gear - 1.0) / gear * plant.encoder[i]);
   }
 }
 
 // The law on the mission's own plant.
-void judge_on_mission(const TrackingProblem& problem, MeasuredLaw& row) {
+void evaluate_on_mission(const TrackingProblem& problem, MeasuredController& row) {
   if (row.tuning.status == MeasuredTuningStatus::unstable) return;
-  const control::ControlLaw& law = row.tuning.law;
+  const control::Controller& controller = row.tuning.controller;
   control::LoopEvaluator evaluator = make_evaluator(problem);
   row.stable_on_case =
-      control::stability(problem.plant, law, problem.delay, analysis_grid(problem)).stable();
+      control::stability(problem.plant, controller, problem.delay, analysis_grid(problem)).stable();
   if (!row.stable_on_case) return;
-  const auto evaluation = evaluator.evaluate(law, false);
+  const auto evaluation = evaluator.evaluate(controller, false);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     row.peaks_on_case.at(b) = evaluation.highest_peak(control::loop_breaks.at(b));
   }
@@ -155,8 +155,8 @@ const Eigen::VectorXd& checked_command(const identification::DriveRecord& record
 }  // namespace
 
 bool MeasuredTuningStudy::any_confident() const {
-  return std::ranges::any_of(laws, [](const MeasuredLaw& law) {
-    return law.tuning.status == MeasuredTuningStatus::confident;
+  return std::ranges::any_of(controllers, [](const MeasuredController& controller) {
+    return controller.tuning.status == MeasuredTuningStatus::confident;
   });
 }
 
@@ -178,19 +178,19 @@ MeasuredTuningStudy study_measured_tuning(const Mission& mission,
   control::MeasuredPlant plant = measured_plant(estimate, study.encoder_recorded);
   if (!encoder) assume_encoder(problem.plant, plant);
   study.channels.emplace(plant, study.oil, problem.plant.drive.tachometer_corner);
-  const HardGoals goals = constraints(mission);
-  study.goals = {goals.sensitivity_peak, goals.valve_effort};
+  const Constraints goals = constraints(mission);
+  study.goals = {goals.sensitivity_peak, goals.control_effort};
   study.other_goals = goals.ask_for_margins() || goals.ask_for_gusts() || goals.bandwidth;
 
   const MeasuredProblem measured{*study.channels, problem.gear_ratio, problem.delay,
                                  problem.noise,   problem.wind,       problem.rms_band};
   for (const auto& [name, structure] : structures) {
     if (options.stop && options.stop()) break;
-    MeasuredLaw row;
+    MeasuredController row;
     row.structure = name;
     row.tuning = tune(measured, structure, study.goals, options);
-    judge_on_mission(problem, row);
-    study.laws.push_back(std::move(row));
+    evaluate_on_mission(problem, row);
+    study.controllers.push_back(std::move(row));
   }
   return study;
 }

@@ -14,7 +14,7 @@
 namespace boresight::design {
 
 /// One structure tuned on the measured response. Rms and rates at the motor shaft, as in the tuner.
-struct MeasuredLaw {
+struct MeasuredController {
   std::string structure;  // as the user names it
   MeasuredTuningResult tuning;
   /// The same gains on the mission's linear plant. That plant is unmeasured and holds for another
@@ -38,10 +38,10 @@ struct MeasuredTuningStudy {
   double gear_ratio = 1.0;
   double wind_speed = 0.0;  // m/s
   std::optional<control::MeasuredChannels> channels;
-  MeasuredGoals goals;
+  MeasuredConstraints goals;
   /// True if the mission has constraints of other kinds, which the tuning ignores.
   bool other_goals = false;
-  std::vector<MeasuredLaw> laws;
+  std::vector<MeasuredController> controllers;
 
   /// True if a controller meets its constraints within the confidence region and passes its
   /// verification.

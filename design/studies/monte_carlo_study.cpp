@@ -7,11 +7,11 @@
 namespace boresight::design {
 
 MonteCarlo monte_carlo_of(const Mission& mission, const PlantDistribution& distribution,
-                          const control::ControlLaw& law, const MonteCarloOptions& options) {
+                          const control::Controller& controller, const MonteCarloOptions& options) {
   MonteCarlo study;
   study.problem = tracking_problem(mission);
   study.problem.climate = mission.climate;
-  study.law = law;
+  study.controller = controller;
   study.goals = constraints(mission);
   study.plants = options.plants;
   study.retune = options.retune;
@@ -31,17 +31,18 @@ MonteCarlo monte_carlo_of(const Mission& mission, const PlantDistribution& distr
 }
 
 MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribution& distribution,
-                                    const control::ControlLaw& law,
+                                    const control::Controller& controller,
                                     const MonteCarloOptions& options) {
-  MonteCarloRun run(monte_carlo_of(mission, distribution, law, options));
+  MonteCarloRun run(monte_carlo_of(mission, distribution, controller, options));
   run.work_on(run.missing_blocks(),
               {.threads = options.threads, .stop = options.interrupted, .watch = {}});
   return summarise(run, mission, distribution, options.seed, options.threads);
 }
 
 EstimatedNumber instability(const Mission& mission, const PlantDistribution& distribution,
-                            const control::ControlLaw& law, const MonteCarloOptions& options) {
-  MonteCarloRun run(monte_carlo_of(mission, distribution, law, options));
+                            const control::Controller& controller,
+                            const MonteCarloOptions& options) {
+  MonteCarloRun run(monte_carlo_of(mission, distribution, controller, options));
   run.work_on(run.missing_blocks(), {.threads = options.threads, .stop = {}, .watch = {}});
   std::uint64_t unstable = 0;
   for (std::uint64_t index = 0; index < options.plants; ++index) {

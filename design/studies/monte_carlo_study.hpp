@@ -24,19 +24,20 @@ struct MonteCarloOptions {
 /// @throws InvalidInput as tracking_problem and constraints; the plant of a sample as
 /// plant::changed and plant::linear_plant.
 MonteCarlo monte_carlo_of(const Mission& mission, const PlantDistribution& distribution,
-                          const control::ControlLaw& law, const MonteCarloOptions& options);
+                          const control::Controller& controller, const MonteCarloOptions& options);
 
 /// Runs that study, completely or until an interrupt, and summarises its plants. The result does
 /// not depend on the number of threads.
 /// @throws Interrupted where no block of plants is complete; InvalidInput without plants, as
-/// monte_carlo_of and MonteCarloJudge; NumericalFailure for a plant that cannot be evaluated.
+/// monte_carlo_of and MonteCarloEvaluator; NumericalFailure for a plant that cannot be evaluated.
 MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribution& distribution,
-                                    const control::ControlLaw& law,
+                                    const control::Controller& controller,
                                     const MonteCarloOptions& options);
 
 /// MonteCarloSummary::instability of that study alone, without its simulation.
 /// @throws as study_monte_carlo, but not Interrupted: it is not polled.
 EstimatedNumber instability(const Mission& mission, const PlantDistribution& distribution,
-                            const control::ControlLaw& law, const MonteCarloOptions& options);
+                            const control::Controller& controller,
+                            const MonteCarloOptions& options);
 
 }  // namespace boresight::design

@@ -17,7 +17,7 @@ namespace boresight::design {
 /// One plant of a Monte Carlo study that is listed individually.
 struct NotablePlant {
   std::uint64_t index = 0;
-  PlantDraw draw;
+  PlantSample draw;
   PlantOutcome outcome;
 };
 
@@ -28,7 +28,7 @@ struct MonteCarloSummary {
   std::uint64_t plants_asked = 0, plants = 0;  // evaluated: complete blocks
   std::vector<UncertainInput> inputs;
   bool climate = false;
-  HardGoals goals;
+  Constraints goals;
 
   std::uint64_t stable = 0, unstable = 0, undecided = 0;
   EstimatedNumber instability;     // probability, undecided plants counted as unstable
@@ -36,10 +36,10 @@ struct MonteCarloSummary {
   std::uint64_t contradicted = 0;  // Nyquist encirclements gave the opposite verdict
   double confirm_peak = 0.0;
   std::uint64_t confirm_every = 0;
-  std::vector<NotablePlant> unstable_plants;  // the first most_listed
-  static constexpr std::size_t most_listed = 1000;
+  std::vector<NotablePlant> unstable_plants;  // the first max_listed
+  static constexpr std::size_t max_listed = 1000;
 
-  DistributionSummary beam_rms;
+  DistributionSummary boresight_rms;
   std::optional<DistributionSummary> climate_rms;
   struct BandLoss {
     PointingBand band;
@@ -51,17 +51,17 @@ struct MonteCarloSummary {
   /// Of a simulation on the mission's own plant; empty without Antenna::nonlinear or budgets.
   NonlinearEffect effect;
   /// From the linear rms of each plant with that effect (NonlinearEffect::for_budgets).
-  struct BudgetChance {
+  struct BudgetProbability {
     PointingBudget budget;
     EstimatedNumber met;  // at the design's wind speed; unstable plants meet no budget
   };
-  std::vector<BudgetChance> budgets;
-  struct GoalChance {
+  std::vector<BudgetProbability> budgets;
+  struct ConstraintProbability {
     std::string goal;
     EstimatedNumber broken;  // fraction of all plants, violated by stable ones
   };
-  std::vector<GoalChance> goals_broken;
-  EstimatedNumber all_goals_met;
+  std::vector<ConstraintProbability> constraints_violated;
+  EstimatedNumber all_constraints_met;
 
   struct Correlation {
     UncertainInput input = UncertainInput::structure_frequency;
@@ -74,10 +74,10 @@ struct MonteCarloSummary {
   struct Retuned {
     std::uint64_t found = 0;  // plants for which a controller that meets the constraints was found
     std::uint64_t only_retuned = 0;  // of these, those that the fixed controller does not stabilise
-    DistributionSummary beam_rms;
+    DistributionSummary boresight_rms;
     /// Rms of the fixed controller over that of the re-tuned one, less 1, on plants that both
     /// stabilise.
-    DistributionSummary price;
+    DistributionSummary fixed_gain_cost;
   };
   std::optional<Retuned> retuned;
 };

@@ -13,10 +13,12 @@ namespace {
 
 // Not a number where the loop is unstable; nothing where there is no such antenna.
 std::optional<double> held_rms(const std::function<TrackingProblem()>& moved,
-                               const control::ControlLaw& law, const HardGoals& goals) {
+                               const control::Controller& controller, const Constraints& goals) {
   try {
     const TrackingProblem problem = moved();
-    return judge(problem, {{"moved", problem.plant}}, law, goals, 1).members.front().beam_rms;
+    return evaluate(problem, {{"moved", problem.plant}}, controller, goals, 1)
+        .members.front()
+        .boresight_rms;
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
@@ -32,12 +34,13 @@ double NumberEffect::change(double rms) const {
 }
 
 std::vector<NumberEffect> number_effects(const std::vector<MovedNumber>& numbers,
-                                         const control::ControlLaw& law, const HardGoals& goals,
-                                         double rms, std::size_t most, unsigned threads) {
+                                         const control::Controller& controller,
+                                         const Constraints& goals, double rms, std::size_t maximum,
+                                         unsigned threads) {
   std::vector<std::optional<double>> held(2 * numbers.size());
   numerics::for_each_index(held.size(), threads, [&](std::size_t job) {
     const MovedNumber& number = numbers[job / 2];
-    held[job] = held_rms(job % 2 == 0 ? number.lower : number.upper, law, goals);
+    held[job] = held_rms(job % 2 == 0 ? number.lower : number.upper, controller, goals);
   });
   std::vector<NumberEffect> effects;
   constexpr double worth_a_row = 1e-3;
@@ -50,7 +53,7 @@ std::vector<NumberEffect> number_effects(const std::vector<MovedNumber>& numbers
   std::ranges::stable_sort(effects, [&](const NumberEffect& x, const NumberEffect& y) {
     return x.change(rms) > y.change(rms);
   });
-  if (effects.size() > most) effects.resize(most);
+  if (effects.size() > maximum) effects.resize(maximum);
   return effects;
 }
 

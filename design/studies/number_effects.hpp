@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 
@@ -27,12 +27,13 @@ struct NumberEffect {
   double change(double rms) const;
 };
 
-/// Moves one number at a time with all gains fixed. Returns the `most` numbers that change the rms
-/// (rad) most, the largest change first. It omits changes below a thousandth, and numbers that give
-/// no valid antenna on either side. The result does not depend on the number of threads.
+/// Moves one number at a time with all gains fixed. Returns the `maximum` numbers that change the
+/// rms (rad) most, the largest change first. It omits changes below a thousandth, and numbers that
+/// give no valid antenna on either side. The result does not depend on the number of threads.
 /// @throws what MovedNumber throws except InvalidInput.
 std::vector<NumberEffect> number_effects(const std::vector<MovedNumber>& numbers,
-                                         const control::ControlLaw& law, const HardGoals& goals,
-                                         double rms, std::size_t most, unsigned threads);
+                                         const control::Controller& controller,
+                                         const Constraints& goals, double rms, std::size_t maximum,
+                                         unsigned threads);
 
 }  // namespace boresight::design

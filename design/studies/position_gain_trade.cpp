@@ -21,13 +21,13 @@ std::optional<std::size_t> place_of(const control::LoopStructure& structure,
 
 // None where the search did not end at the upper bound of the position gain.
 std::optional<TradedGains> traded_gains(const TuningResult& tuning) {
-  const auto rate = place_of(tuning.law.structure, "kr");
-  const auto position = place_of(tuning.law.structure, "kp");
-  if (!rate || !position || *position >= tuning.law.gains.size()) return std::nullopt;
-  const control::GainDescription& gain = tuning.law.structure.gains()[*position];
+  const auto rate = place_of(tuning.controller.structure, "kr");
+  const auto position = place_of(tuning.controller.structure, "kp");
+  if (!rate || !position || *position >= tuning.controller.gains.size()) return std::nullopt;
+  const control::GainDescription& gain = tuning.controller.structure.gains()[*position];
   const bool at_bound =
       std::ranges::find(tuning.gains_at_bound, gain.name) != tuning.gains_at_bound.end();
-  if (!at_bound || !ends_at_upper(gain, tuning.law.gains[*position])) return std::nullopt;
+  if (!at_bound || !ends_at_upper(gain, tuning.controller.gains[*position])) return std::nullopt;
   return TradedGains{*rate, *position};
 }
 
@@ -42,33 +42,34 @@ bool ends_at_position_gain(const TuningResult& tuning) {
 }
 
 std::optional<PositionGainTrade> position_gain_trade(TrackingProblem problem,
-                                                     const TuningResult& tuning, double beam_rms,
-                                                     const HardGoals& goals,
+                                                     const TuningResult& tuning,
+                                                     double boresight_rms, const Constraints& goals,
                                                      const std::vector<EnsembleMember>& members) {
   const auto traded = traded_gains(tuning);
   if (!traded) return std::nullopt;
   problem.climate.clear();
   const auto lowered = [&](double factor) {
-    control::ControlLaw law = tuning.law;
-    law.gains.at(traded->position) /= factor;
-    law.gains.at(traded->rate) *= factor;
-    return law;
+    control::Controller controller = tuning.controller;
+    controller.gains.at(traded->position) /= factor;
+    controller.gains.at(traded->rate) *= factor;
+    return controller;
   };
   const auto rms = [&](double factor) {
-    return judge(problem, {{"nominal", problem.plant}}, lowered(factor), goals, 1)
+    return evaluate(problem, {{"nominal", problem.plant}}, lowered(factor), goals, 1)
         .members.front()
-        .beam_rms;
+        .boresight_rms;
   };
   constexpr double alike = 1.01, worth_saying = 2.0;
   double held = 1.0, beyond = 100.0;
   while (beyond > 1.02 * held) {
     const double middle = std::sqrt(held * beyond);
-    (rms(middle) <= alike * beam_rms ? held : beyond) = middle;
+    (rms(middle) <= alike * boresight_rms ? held : beyond) = middle;
   }
   if (held < worth_saying) return std::nullopt;
   PositionGainTrade trade{lowered(held), traded->position, traded->rate, rms(held), 0};
   if (!members.empty()) {
-    trade.within_goals = judge(problem, members, trade.law, goals, 1).within_goals;
+    trade.within_constraints =
+        evaluate(problem, members, trade.controller, goals, 1).within_constraints;
   }
   return trade;
 }

@@ -8,7 +8,7 @@
 
 #include <boresight/design/decisions/negligible_change.hpp>
 #include <boresight/design/decisions/pareto_front.hpp>
-#include <boresight/design/studies/held_candidate.hpp>
+#include <boresight/design/studies/fixed_gain_candidate.hpp>
 #include <boresight/design/studies/proposal_decision.hpp>
 #include <boresight/design/studies/same_structure_pairs.hpp>
 #include <boresight/numerics/error.hpp>
@@ -20,10 +20,10 @@ namespace {
 class Pool {
  public:
   struct Pair {
-    HeldCandidate best, second;
+    FixedGainCandidate best, second;
   };
 
-  Pool(const HeldCandidate& best, const HeldCandidate& second) : pattern_{best, second} {}
+  Pool(const FixedGainCandidate& best, const FixedGainCandidate& second) : pattern_{best, second} {}
 
   std::unique_ptr<Pair> take() {
     {
@@ -48,7 +48,7 @@ class Pool {
   std::vector<std::unique_ptr<Pair>> idle_;
 };
 
-Probability share_of(const Eigen::ArrayXd& indicator) {
+Probability fraction_of(const Eigen::ArrayXd& indicator) {
   return mean_score(indicator, DecisionOptions{}.confidence);
 }
 
@@ -63,17 +63,17 @@ class Decision {
         distribution_(distribution),
         options_(options) {
     for (std::size_t i = 0; i < candidates.size(); ++i) {
-      const CandidateLaw* law = candidates[i].chosen_law();
-      if (law == nullptr) {
-        found_.left_out.push_back({i, NotDrawn::no_stable_law});
+      const CandidateController* controller = candidates[i].chosen_controller();
+      if (controller == nullptr) {
+        found_.left_out.push_back({i, NotDrawn::no_stable_controller});
         continue;
       }
-      if (!std::isfinite(law->nonlinear_factor())) {
+      if (!std::isfinite(controller->simulated_to_linear_rms())) {
         found_.left_out.push_back({i, NotDrawn::run_not_completed});
         continue;
       }
       found_.candidates.push_back({i, {}, {}});
-      held_.emplace_back(as_is, *missions[i], *law);
+      held_.emplace_back(as_is, *missions[i], *controller);
     }
     found_.uncertain = distribution.inputs();
   }
@@ -93,7 +93,7 @@ class Decision {
 
   // All candidates on the same draws. False if interrupted.
   bool draw_outcomes() {
-    auto outcomes = judge_draws(held_, distribution_, options_);
+    auto outcomes = evaluate_samples(held_, distribution_, options_);
     if (!outcomes) return false;
     rms_ = std::move(outcomes->rms);
     outside_ = std::move(outcomes->outside);
@@ -101,15 +101,15 @@ class Decision {
   }
 
   void summarise() {
-    found_.draws = options_.draws;
+    found_.random_samples = options_.random_samples;
     for (std::size_t i = 0; i < found_.candidates.size(); ++i) {
       const auto column = static_cast<Eigen::Index>(i);
       auto& one = found_.candidates[i];
-      one.unstable = share_of(rms_.col(column).array().isInf().cast<double>());
-      one.outside_goals = share_of(outside_.col(column));
+      one.unstable = fraction_of(rms_.col(column).array().isInf().cast<double>());
+      one.outside_goals = fraction_of(outside_.col(column));
     }
     found_.statistics = compare_options(rms_);
-    find_front_shares();
+    find_front_fractions();
     rank_candidates(candidates_, found_);
   }
 
@@ -124,8 +124,9 @@ class Decision {
   }
 
   // Of those with a cost that are fit to be chosen, as of the front by the plants.
-  void find_front_shares() {
-    found_.front_shares.assign(found_.candidates.size(), std::numeric_limits<double>::quiet_NaN());
+  void find_front_fractions() {
+    found_.front_fractions.assign(found_.candidates.size(),
+                                  std::numeric_limits<double>::quiet_NaN());
     std::vector<double> costs;
     std::vector<Eigen::Index> columns;
     for (std::size_t i = 0; i < found_.candidates.size(); ++i) {
@@ -136,38 +137,38 @@ class Decision {
     }
     if (costs.empty()) return;
     const Eigen::MatrixXd rms = rms_(Eigen::all, columns);
-    const auto shares = front_shares(costs, rms);
-    for (std::size_t k = 0; k < shares.size(); ++k) {
-      found_.front_shares[static_cast<std::size_t>(columns[k])] = shares[k];
+    const auto fractions = front_fractions(costs, rms);
+    for (std::size_t k = 0; k < fractions.size(); ++k) {
+      found_.front_fractions[static_cast<std::size_t>(columns[k])] = fractions[k];
     }
   }
 
-  double difference(HeldCandidate& best, HeldCandidate& second,
-                    const std::vector<double>& shares) const {
-    const auto draw = distribution_.at_shares(shares);
-    return second.judge(draw).rms - best.judge(draw).rms;
+  double difference(FixedGainCandidate& best, FixedGainCandidate& second,
+                    const std::vector<double>& fractions) const {
+    const auto draw = distribution_.at_fractions(fractions);
+    return second.evaluate(draw).rms - best.evaluate(draw).rms;
   }
 
   void find_what_decides() {
     const std::size_t inputs = distribution_.inputs().size();
     if (inputs == 0) return;
     try {
-      HeldCandidate best = held_[found_.best], second = held_[found_.second];
-      found_.tornado = tornado(inputs, [&](const std::vector<double>& shares) {
-        return difference(best, second, shares);
+      FixedGainCandidate best = held_[found_.best], second = held_[found_.second];
+      found_.tornado = tornado(inputs, [&](const std::vector<double>& fractions) {
+        return difference(best, second, fractions);
       });
       numerics::SobolOptions sobol;
       sobol.points = 64;
       sobol.seed = options_.seed;
       sobol.threads = options_.threads;
       Pool pool(held_[found_.best], held_[found_.second]);
-      const auto function = [&](const std::vector<double>& shares, Eigen::VectorXd& out) {
+      const auto function = [&](const std::vector<double>& fractions, Eigen::VectorXd& out) {
         if (stopped()) {
-          out(0) = shares[0];
+          out(0) = fractions[0];
           return;
         }
         auto pair = pool.take();
-        out(0) = difference(pair->best, pair->second, shares);
+        out(0) = difference(pair->best, pair->second, fractions);
         pool.give(std::move(pair));
       };
       found_.sobol = numerics::sobol_indices(inputs, 1, function, sobol);
@@ -190,7 +191,7 @@ class Decision {
     }
     const Eigen::MatrixXd rms = rms_(Eigen::all, fit);
     if (!rms.allFinite()) {
-      found_.tests_not_valued = TestsNotValued::unstable_on_some_draws;
+      found_.tests_not_valued = TestsNotValued::unstable_on_some_samples;
       return;
     }
     Eigen::MatrixXd inputs(rms_.rows(), static_cast<Eigen::Index>(found_.uncertain.size()));
@@ -200,7 +201,7 @@ class Decision {
         inputs(d, k) = draw[distribution_.inputs()[static_cast<std::size_t>(k)]];
       }
     }
-    auto& tests = found_.tests.emplace(test_value(inputs, rms));
+    auto& tests = found_.tests.emplace(sample_information(inputs, rms));
     tests.choice = static_cast<std::size_t>(fit[tests.choice]);
     tests.mean_loss.clear();
     for (const auto& option : found_.statistics.options) tests.mean_loss.push_back(option.mean);
@@ -211,13 +212,13 @@ class Decision {
   const std::vector<const Mission*>& missions_;
   const PlantDistribution& distribution_;
   const ProposalOptions& options_;
-  std::vector<HeldCandidate> held_;
+  std::vector<FixedGainCandidate> held_;
   Eigen::MatrixXd rms_;  // mdeg, draws x candidates
   Eigen::ArrayXXd outside_;
   ProposalDecision found_;
 };
 
-double left_open_between(const CandidateLaw& one, const CandidateLaw& other) {
+double left_open_between(const CandidateController& one, const CandidateController& other) {
   if (!one.expected || !other.expected) return 0.0;
   return left_open({*one.expected, one.effect().amplitude},
                    {*other.expected, other.effect().amplitude});
@@ -228,11 +229,13 @@ std::vector<bool> tied_with(std::size_t best, const std::vector<ProposedDesign>&
                             const ProposalDecision& decision, const std::vector<bool>& fit) {
   const auto& losses = decision.ranking.losses;
   std::vector<bool> tied(fit.size());
-  const CandidateLaw* least = candidates[decision.candidates[best].candidate].chosen_law();
+  const CandidateController* minimum =
+      candidates[decision.candidates[best].candidate].chosen_controller();
   for (std::size_t i = 0; i < fit.size(); ++i) {
-    const CandidateLaw* law = candidates[decision.candidates[i].candidate].chosen_law();
-    if (!fit[i] || !fit[best] || law == nullptr || least == nullptr) continue;
-    const double allowed = std::max(negligible_change, left_open_between(*least, *law));
+    const CandidateController* controller =
+        candidates[decision.candidates[i].candidate].chosen_controller();
+    if (!fit[i] || !fit[best] || controller == nullptr || minimum == nullptr) continue;
+    const double allowed = std::max(negligible_change, left_open_between(*minimum, *controller));
     tied[i] = losses[i] <= (1.0 + allowed) * losses[best];
   }
   return tied;
@@ -245,18 +248,18 @@ double cost_of(const PricedOption& option) {
 }  // namespace
 
 std::size_t worth_its_cost(const std::vector<PricedOption>& options, std::size_t best) {
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (const auto& option : options) {
-    if (option.fit) least = std::min(least, option.loss);
+    if (option.fit) minimum = std::min(minimum, option.loss);
   }
   std::size_t choice = best;
   bool chosen = false;
   for (std::size_t i = 0; i < options.size(); ++i) {
-    const bool alike = options[i].tied || options[i].loss <= (1.0 + negligible_change) * least;
+    const bool alike = options[i].tied || options[i].loss <= (1.0 + negligible_change) * minimum;
     if (!options[i].fit || !alike) continue;
-    const double cost = cost_of(options[i]), least_cost = cost_of(options[choice]);
-    const bool cheaper = cost < least_cost;
-    const bool better = cost == least_cost && options[i].loss < options[choice].loss;
+    const double cost = cost_of(options[i]), min_cost = cost_of(options[choice]);
+    const bool cheaper = cost < min_cost;
+    const bool better = cost == min_cost && options[i].loss < options[choice].loss;
     if (!chosen || cheaper || better) choice = i;
     chosen = true;
   }

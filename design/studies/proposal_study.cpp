@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include <boresight/design/decisions/pareto_front.hpp>
+#include <boresight/design/studies/candidate_controllers.hpp>
 #include <boresight/design/studies/candidate_figures.hpp>
-#include <boresight/design/studies/candidate_laws.hpp>
 #include <boresight/design/studies/proposal_decision.hpp>
 #include <boresight/design/studies/proposal_study.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
@@ -35,12 +35,14 @@ std::vector<std::size_t> front_of(const std::vector<ProposedDesign>& candidates)
   std::vector<std::size_t> places;
   std::vector<CostPoint> points;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const CandidateLaw* law = candidates[i].chosen_law();
-    if (law == nullptr || !law->usable() || !std::isfinite(law->compared_rms())) continue;
+    const CandidateController* controller = candidates[i].chosen_controller();
+    if (controller == nullptr || !controller->usable() ||
+        !std::isfinite(controller->compared_rms()))
+      continue;
     const auto& cost = candidates[i].cost;
     if (!cost) continue;
     places.push_back(i);
-    points.push_back({*cost, law->compared_rms()});
+    points.push_back({*cost, controller->compared_rms()});
   }
   std::vector<std::size_t> front;
   for (const std::size_t i : pareto_front(points)) front.push_back(places[i]);
@@ -49,32 +51,33 @@ std::vector<std::size_t> front_of(const std::vector<ProposedDesign>& candidates)
 
 }  // namespace
 
-NonlinearEffect CandidateLaw::effect() const {
+NonlinearEffect CandidateController::effect() const {
   if (!time_domain) return {};
   const auto& wind = time_domain->wind;
-  return NonlinearEffect::of_simulation(expected ? expected->rms.value : wind.beam_rms,
+  return NonlinearEffect::of_simulation(expected ? expected->rms.value : wind.boresight_rms,
                                         wind.predicted_rms,
-                                        hunting_amplitude(time_domain->hunting));
+                                        limit_cycle_amplitude(time_domain->limit_cycles));
 }
 
-double CandidateLaw::nonlinear_factor() const {
+double CandidateController::simulated_to_linear_rms() const {
   return effect().factor;
 }
 
 std::optional<double> ProposedDesign::reversal_error() const {
-  const CandidateLaw* law = chosen_law();
-  if (law == nullptr || !law->time_domain || !law->time_domain->reversal) return std::nullopt;
-  const auto& reversal = *law->time_domain->reversal;
+  const CandidateController* controller = chosen_controller();
+  if (controller == nullptr || !controller->time_domain || !controller->time_domain->reversal)
+    return std::nullopt;
+  const auto& reversal = *controller->time_domain->reversal;
   if (reversal.status != RunStatus::complete) return std::nullopt;
-  return reversal.beam_error;
+  return reversal.boresight_error;
 }
 
 ProposalStudy study_proposals(const std::vector<ProposedAntenna>& antennas,
                               const PlantUncertainty& uncertainty, const ProposalOptions& options) {
-  constexpr std::size_t least_draws = 100;
-  if (options.draws < least_draws) {
-    throw InvalidInput(
-        fmt::format("proposals: expected {} draws or more, found {}", least_draws, options.draws));
+  constexpr std::size_t min_random_samples = 100;
+  if (options.random_samples < min_random_samples) {
+    throw InvalidInput(fmt::format("proposals: expected {} samples or more, found {}",
+                                   min_random_samples, options.random_samples));
   }
   if (antennas.empty()) throw InvalidInput("proposals: expected an antenna, found none");
   const Mission& as_is = antennas.front().mission;
@@ -95,7 +98,7 @@ ProposalStudy study_proposals(const std::vector<ProposedAntenna>& antennas,
       continue;
     }
     ProposedDesign candidate = describe(antennas[i], i);
-    candidate.laws = std::move(tuned.candidates[i].laws);
+    candidate.controllers = std::move(tuned.candidates[i].controllers);
     candidate.chosen = tuned.candidates[i].chosen;
     study.candidates.push_back(std::move(candidate));
     missions.push_back(&antennas[i].mission);
@@ -104,7 +107,7 @@ ProposalStudy study_proposals(const std::vector<ProposedAntenna>& antennas,
     ProposedDesign& candidate = study.candidates[i];
     if (!candidate.chosen) return;
     candidate.figures = candidate_figures(*missions[i], as_is.bands, as_is.budgets,
-                                          candidate.laws[*candidate.chosen]);
+                                          candidate.controllers[*candidate.chosen]);
   });
   study.front = front_of(study.candidates);
   const bool stopped = options.interrupted && options.interrupted();

@@ -9,7 +9,7 @@
 
 #include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/decisions/ranking_losses.hpp>
-#include <boresight/design/decisions/test_value.hpp>
+#include <boresight/design/decisions/sample_information.hpp>
 #include <boresight/design/decisions/tornado.hpp>
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
@@ -36,11 +36,11 @@ struct ProposedAntenna {
 };
 
 /// One loop structure tuned on the antenna of a proposal. Rms at the sky, rad.
-struct CandidateLaw {
+struct CandidateController {
   std::string structure;  // as the user names it
   Design design;          // on the proposal's nominal plant
   /// Every constraint is met on the nominal plant and on every ensemble member.
-  bool goals_met = false;
+  bool constraints_met = false;
   /// With fixed gains on every member; none without a stable controller.
   std::optional<EnsembleResult> ensemble;
   /// Root of the mean square over the members, of linear loops; infinite if one is unstable.
@@ -54,22 +54,23 @@ struct CandidateLaw {
   /// by linear loops with the nonlinear effect. None for a budget without such a wind. Empty
   /// without a stable controller.
   std::vector<std::optional<int>> budgets_met;
-  /// Free of limit cycles beyond the tightest budget (holds_still); true without a simulation.
-  bool still = true;
+  /// Free of limit cycles beyond the tightest budget (is_limit_cycle_free); true without a
+  /// simulation.
+  bool limit_cycle_free = true;
 
   /// The expected rms over the linear one; for a single record, over that of the linear plant in
   /// the same record. 1 without a simulation, infinite if a run did not complete.
-  double nonlinear_factor() const;
+  double simulated_to_linear_rms() const;
   /// The nonlinear factor with the amplitude of the limit cycles.
   NonlinearEffect effect() const;
   /// The rms by which controllers and proposals are compared: member_rms with its effect.
   double compared_rms() const { return effect().rms(member_rms); }
   bool stable() const { return design.tuning.status != TuningStatus::unstable; }
-  bool usable() const { return goals_met && design.verification.passed && still; }
+  bool usable() const { return constraints_met && design.verification.passed && limit_cycle_free; }
 };
 
 /// A slew of `distance` from rest to rest within the drive's capability, less its reserve
-/// (within_reach). Angles at the sky, rad.
+/// (achievable_limits). Angles at the sky, rad.
 struct SlewFigures {
   double distance = 0.0;
   double rate = 0.0, acceleration = 0.0;  // 0: the supply cannot overcome the friction
@@ -88,7 +89,7 @@ struct CandidateFigures {
   std::vector<double> climate_losses;  // dB, one per band; empty without a climate
   std::vector<double> speed_limits;    // m/s, one per budget
   /// torque_limited_wind_speed (m/s).
-  double supply_wind_speed = std::numeric_limits<double>::infinity();
+  double torque_limited_wind_speed = std::numeric_limits<double>::infinity();
   /// Supply torque less friction and offset torque, over the largest torque in gusts.
   double supply_margin = 0.0;
   double demand_margin = 0.0;              // valve stroke over the largest demand in gusts
@@ -105,20 +106,23 @@ struct ProposedDesign {
   double motor_inertia = 0.0;  // kg m2, all motors
   double reflected_inertia = 0.0;
   double motor_to_load_ratio = 0.0;
-  plant::PlantMode oil_mode;       // plant::mode_of_oil, no loop closed
-  std::vector<CandidateLaw> laws;  // one per structure
+  plant::PlantMode oil_mode;                     // plant::mode_of_oil, no loop closed
+  std::vector<CandidateController> controllers;  // one per structure
   /// The controller recommended for it: recommended_or, accepting at worst Fitness::lost_in_wind.
   /// Where none meets its constraints: the one nearest to them. None if no structure is stable.
   std::optional<std::size_t> chosen;
   std::optional<CandidateFigures> figures;  // of the chosen controller
 
   /// None if no structure is stable.
-  const CandidateLaw* chosen_law() const { return chosen ? &laws[*chosen] : nullptr; }
-  bool feasible() const { return chosen && laws[*chosen].usable(); }
+  const CandidateController* chosen_controller() const {
+    return chosen ? &controllers[*chosen] : nullptr;
+  }
+  bool feasible() const { return chosen && controllers[*chosen].usable(); }
   /// True if its limit cycle is the only criterion that it fails.
-  bool hunts() const {
-    const CandidateLaw* law = chosen_law();
-    return law != nullptr && law->goals_met && law->design.verification.passed && !law->still;
+  bool has_limit_cycle() const {
+    const CandidateController* controller = chosen_controller();
+    return controller != nullptr && controller->constraints_met &&
+           controller->design.verification.passed && !controller->limit_cycle_free;
   }
   /// Peak boresight error (rad) after a velocity reversal at the tracking rate, with the chosen
   /// controller on the nonlinear antenna. None where that did not run, or did not complete.
@@ -126,7 +130,7 @@ struct ProposedDesign {
 };
 
 /// Results of the samples for one candidate, gains fixed.
-struct CandidateDraws {
+struct CandidateSamples {
   std::size_t candidate = 0;
   Probability unstable;       // by Nyquist encirclements, confirmed by eigenvalues
   Probability outside_goals;  // unstable, or Ms or the control effort beyond its limit
@@ -139,7 +143,7 @@ struct SameStructure {
   Probability better;  // that the first has the smaller rms
   /// Mean of second less first (mdeg; positive: the first is better), and its standard error.
   double mean_gain = 0.0, gain_error = 0.0;
-  bool first_usable = false, second_usable = false;  // CandidateLaw::usable
+  bool first_usable = false, second_usable = false;  // CandidateController::usable
 };
 
 /// Two different antennas, as indices into `candidates`, whose chosen controllers differ in
@@ -150,20 +154,20 @@ struct PairByStructure {
 };
 
 /// Reason why a candidate has no samples.
-enum class NotDrawn { no_stable_law, run_not_completed };
+enum class NotDrawn { no_stable_controller, run_not_completed };
 /// Reason why no value of a plant test is computed.
-enum class TestsNotValued { fewer_than_two_fit, unstable_on_some_draws };
+enum class TestsNotValued { fewer_than_two_fit, unstable_on_some_samples };
 
 /// Probabilities, regrets and their basis. Losses are boresight rms in mdeg, of linear loops with
 /// the controller's nonlinear effect.
 struct ProposalDecision {
-  std::size_t draws = 0;
-  std::vector<CandidateDraws> candidates;  // those with a stable controller, in the study's order
-  DecisionStatistics statistics;           // options in the same order
+  std::size_t random_samples = 0;
+  std::vector<CandidateSamples> candidates;  // those with a stable controller, in the study's order
+  DecisionStatistics statistics;             // options in the same order
   std::vector<PairByStructure> by_structure;
   /// Fraction of samples in which the candidate is on the Pareto front of cost and rms; NaN without
   /// a cost.
-  std::vector<double> front_shares;
+  std::vector<double> front_fractions;
   std::vector<UncertainInput> uncertain;  // that vary
   RankingLosses ranking;                  // ranking_losses of the options
   /// Eligible, and tied with `best`: their losses differ by at most negligible_change, or by at
@@ -178,11 +182,11 @@ struct ProposalDecision {
   std::optional<Tornado> tornado;
   std::optional<numerics::SobolResult> sobol;
   /// mdeg; for the choice among eligible candidates; `choice` and `mean_loss` are by `candidates`.
-  std::optional<TestValue> tests;
+  std::optional<SampleInformation> tests;
 
   struct LeftOut {
     std::size_t candidate = 0;  // of the study
-    NotDrawn reason = NotDrawn::no_stable_law;
+    NotDrawn reason = NotDrawn::no_stable_controller;
   };
   std::vector<LeftOut> left_out;
   std::string undecided;  // why tornado and sobol failed; empty: they succeeded
@@ -214,7 +218,7 @@ struct PlantUncertainty {
 };
 
 struct ProposalOptions {
-  std::size_t draws = 2000;
+  std::size_t random_samples = 2000;
   int starts = 0;  // per search; 0: as the mission has it
   /// Controllers run on the nonlinear antenna, if there is one, and are compared by that.
   bool time_domain = true;
@@ -249,6 +253,6 @@ ProposalStudy study_proposals(const std::vector<ProposedAntenna>& antennas,
 /// The plant of a sample on the antenna of a proposal. Factors multiply the proposal's values. The
 /// friction slope scales with the friction curve's slope at the tracking rate.
 plant::AntennaPlant proposed_plant(const plant::Antenna& as_is, const plant::Antenna& proposed,
-                                   const PlantDraw& draw);
+                                   const PlantSample& draw);
 
 }  // namespace boresight::design

@@ -31,26 +31,28 @@ DesignTask make_task(const Mission& mission, std::uint64_t seed, std::string nam
 }
 
 // Where none is stable, the first.
-const TunedLaw& recommended_or_first(const ControllerStudy& study) {
-  if (const TunedLaw* law = recommended_or(study, Fitness::unstable)) return *law;
-  return *std::ranges::find_if(
-      study.tuned.laws, [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; });
+const TunedController& recommended_or_first(const ControllerStudy& study) {
+  if (const TunedController* controller = recommended_or(study, Fitness::unstable))
+    return *controller;
+  return *std::ranges::find_if(study.tuned.controllers, [](const TunedController& row) {
+    return row.tuned_for != TunedFor::present;
+  });
 }
 
 // The search of the recommended controller, from other seeds and without its warm starts.
 std::vector<DesignTask> seed_tasks(const Mission& mission, const PlantEnsemble& ensemble,
-                                   const TunedLaw& row, std::uint64_t seed) {
+                                   const TunedController& row, std::uint64_t seed) {
   std::vector<DesignTask> tasks;
   for (int i = 0; i < seed_count; ++i) {
-    tasks.push_back(
-        make_task(mission, seed, "as built", mission.antenna, row.design.tuning.law.structure));
+    tasks.push_back(make_task(mission, seed, "as built", mission.antenna,
+                              row.design.tuning.controller.structure));
     DesignTask& task = tasks.back();
     task.problem.wind.mean_speed = row.wind_speed;
     if (mission.minimises_climate) task.problem.climate = mission.climate;
     task.options.seed = seed + static_cast<std::uint64_t>(i);
     if (row.tuned_for == TunedFor::robust) {
       task.options.members = ensemble.members;
-      task.options.soft_goal = mission.objective;
+      task.options.objective = mission.objective;
     }
   }
   return tasks;
@@ -60,36 +62,36 @@ std::vector<DesignTask> seed_tasks(const Mission& mission, const PlantEnsemble& 
 void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
   const TrackingProblem& problem = section.problem;
   control::LoopEvaluator evaluator = make_evaluator(problem);
-  const control::ControlLaw& law = section.design.tuning.law;
+  const control::Controller& controller = section.design.tuning.controller;
   const double noise = section.design.tuning.evaluation.noise_variance;
-  const Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
+  const Eigen::ArrayXd transmission = evaluator.wind_transmission(controller);
   for (const auto model :
        {plant::WindModel::uniform, plant::WindModel::vickery, plant::WindModel::coherence}) {
     TrackingProblem alternative = problem;
     alternative.wind.model = model;
     section.wind_alternatives.push_back(
-        {model,
-         beam_rms_at_speed(alternative, evaluator, transmission, noise, problem.wind.mean_speed)});
+        {model, boresight_rms_at_speed(alternative, evaluator, transmission, noise,
+                                       problem.wind.mean_speed)});
     section.wind_alternatives.back().speed_limits =
-        budget_speeds(alternative, evaluator, law, noise, mission.budgets, section.effect);
+        budget_speeds(alternative, evaluator, controller, noise, mission.budgets, section.effect);
   }
   const auto structure =
       plant::structure_response(problem.plant.structure, evaluator.response().frequency);
-  section.encoder_held_rms = beam_rms_at_speed(problem, evaluator, structure.beam_per_wind.abs2(),
-                                               0.0, problem.wind.mean_speed);
+  section.flexure_rms = boresight_rms_at_speed(
+      problem, evaluator, structure.boresight_per_wind.abs2(), 0.0, problem.wind.mean_speed);
   Mission in_this_wind = mission;
   in_this_wind.wind = problem.wind;
-  section.supply_wind_speed = torque_limited_wind_speed(in_this_wind);
+  section.torque_limited_wind_speed = torque_limited_wind_speed(in_this_wind);
   section.static_bending = static_bending(problem);
   for (const auto& band : mission.bands) {
     section.losses.push_back({band,
-                              pointing_loss_db(section.design.beam_rms, band.beamwidth,
+                              pointing_loss_db(section.design.boresight_rms, band.beamwidth,
                                                LossConvention::mean_loss_two_axes),
                               pointing_loss_db(section.static_bending, band.beamwidth,
                                                LossConvention::mean_loss_one_axis)});
   }
   const auto speeds =
-      budget_speeds(problem, evaluator, law, noise, mission.budgets, section.effect);
+      budget_speeds(problem, evaluator, controller, noise, mission.budgets, section.effect);
   for (std::size_t i = 0; i < speeds.size(); ++i) {
     section.budgets.push_back({mission.budgets[i], speeds[i]});
   }
@@ -97,24 +99,25 @@ void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
 
 // The figures of a design that was tuned over the climate, at one wind speed as everywhere here.
 void at_one_speed(RecommendedDesign& section) {
-  auto judged = assess(section.problem, section.design.tuning.law, section.goals);
-  judged.tuning = std::move(section.design.tuning);
-  section.design = std::move(judged);
+  auto evaluated = assess(section.problem, section.design.tuning.controller, section.goals);
+  evaluated.tuning = std::move(section.design.tuning);
+  section.design = std::move(evaluated);
 }
 
-RecommendedDesign recommended_design(const Mission& mission, const TunedLaw& row,
+RecommendedDesign recommended_design(const Mission& mission, const TunedController& row,
                                      const NonlinearEffect& effect, std::uint64_t seed,
                                      const std::vector<Design>& repeated) {
   RecommendedDesign section;
   section.effect = effect;
-  section.structure = row.design.tuning.law.structure;
+  section.structure = row.design.tuning.controller.structure;
   section.name = row.structure;
   section.tuned_for = row.tuned_for;
   section.design = row.design;
   section.goals = constraints(mission);
   for (std::size_t i = 0; i < repeated.size(); ++i) {
-    section.seeds.push_back({seed + i, repeated[i].beam_rms, repeated[i].verification.passed});
-    if (repeated[i].verification.passed && repeated[i].beam_rms < 1.01 * row.design.beam_rms) {
+    section.seeds.push_back({seed + i, repeated[i].boresight_rms, repeated[i].verification.passed});
+    if (repeated[i].verification.passed &&
+        repeated[i].boresight_rms < 1.01 * row.design.boresight_rms) {
       ++section.seeds_within_1_percent;
     }
   }
@@ -125,8 +128,9 @@ RecommendedDesign recommended_design(const Mission& mission, const TunedLaw& row
   section.wind_model = section.problem.wind.model;
   section.wind_site = section.problem.wind.site;
   section.climate = mission.climate_parts;
-  for (const auto& [name, law] : mission.present_controllers) {
-    section.present.push_back({law.structure.name(), assess(section.problem, law, section.goals)});
+  for (const auto& [name, controller] : mission.present_controllers) {
+    section.present.push_back(
+        {controller.structure.name(), assess(section.problem, controller, section.goals)});
   }
   if (row.stable()) {
     if (mission.minimises_climate) at_one_speed(section);
@@ -180,24 +184,24 @@ FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task) {
 }
 
 // What the recommended controller is compared with where the mission states no present gains.
-void compare_with_retuned(const Mission& mission, const TuningStudy& tuned, const TunedLaw& best,
-                          RedesignStudy& result) {
+void compare_with_retuned(const Mission& mission, const TuningStudy& tuned,
+                          const TunedController& best, RedesignStudy& result) {
   if (!mission.present_controllers.empty()) return;
   RecommendedDesign& section = result.recommended;
-  const TunedLaw* row = retuned_present(tuned, mission.present_structure, best.wind_speed);
+  const TunedController* row = retuned_present(tuned, mission.present_structure, best.wind_speed);
   if (row == nullptr) return;
   if (row == &best) {
     section.is_retuned_present = true;
     return;
   }
-  const control::ControlLaw& law = row->design.tuning.law;
-  RecommendedDesign::PresentLaw present{row->structure, assess(section.problem, law, section.goals),
-                                        true};
+  const control::Controller& controller = row->design.tuning.controller;
+  RecommendedDesign::PresentController present{
+      row->structure, assess(section.problem, controller, section.goals), true};
   if (row->in_time && row->in_time->expected) {
     present.simulated_rms = row->in_time->expected->rms.value;
   }
   if (result.time_domain) {
-    add_present(mission, section.problem, {row->structure, law}, true, *result.time_domain);
+    add_present(mission, section.problem, {row->structure, controller}, true, *result.time_domain);
   }
   section.present.push_back(std::move(present));
 }
@@ -224,21 +228,23 @@ std::optional<std::vector<double>> speed_limits(const Mission& mission,
                                                 const Design& design,
                                                 const NonlinearEffect& effect) {
   if (design.tuning.status == TuningStatus::unstable) return std::nullopt;
-  return budget_speeds(problem, make_evaluator(problem), design.tuning.law,
+  return budget_speeds(problem, make_evaluator(problem), design.tuning.controller,
                        design.tuning.evaluation.noise_variance, mission.budgets, effect);
 }
 
 // Of the recommended controller; none where it misses its constraints.
 std::optional<TimeDomainStudy> time_domain_of(const Mission& mission, ControllerStudy& study,
-                                              const TunedLaw& best, const RedesignTask& task) {
-  if (study.time_domain && study.time_domain->law == description_of(best)) {
+                                              const TunedController& best,
+                                              const RedesignTask& task) {
+  if (study.time_domain && study.time_domain->controller == description_of(best)) {
     return std::move(study.time_domain);
   }
-  if (!best.goals_met) return std::nullopt;
+  if (!best.constraints_met) return std::nullopt;
   auto problem = tracking_problem(mission);
   problem.wind.mean_speed = best.wind_speed;
-  return verify_in_time_domain(mission, problem, best.design.tuning.law, description_of(best),
-                               task.seed, task.threads, SecondIntegrator::cvodes);
+  return verify_in_time_domain(mission, problem, best.design.tuning.controller,
+                               description_of(best), task.seed, task.threads,
+                               SecondIntegrator::cvodes);
 }
 
 }  // namespace
@@ -250,12 +256,12 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   how.threads = task.threads;
   how.progress = task.progress;
   ControllerStudy study = study_controllers(mission, ensemble, how, ChoiceDetail::verified);
-  const TunedLaw& best = recommended_or_first(study);
+  const TunedController& best = recommended_or_first(study);
   const auto seeds = seed_tasks(mission, ensemble, best, task.seed);
   std::vector<DesignTask> alternatives;
   for (const auto& [name, antenna] : task.alternatives) {
     alternatives.push_back(
-        make_task(mission, task.seed, name, antenna, best.design.tuning.law.structure));
+        make_task(mission, task.seed, name, antenna, best.design.tuning.controller.structure));
   }
   FlywheelPlan flywheels = plan_flywheels(mission, task);
 
@@ -290,17 +296,17 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
 void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
                  RecommendedDesign& design) {
   if (design.design.tuning.status == TuningStatus::unstable || members.empty()) return;
-  const auto& law = design.design.tuning.law;
-  design.ensemble = judge(design.problem, members, law, design.goals, threads);
+  const auto& controller = design.design.tuning.controller;
+  design.ensemble = evaluate(design.problem, members, controller, design.goals, threads);
   std::vector<PointingBudget> budgets;
   std::vector<double> limits;
   for (const auto& result : design.budgets) {
     budgets.push_back(result.budget);
     limits.push_back(result.wind_speed_limit);
   }
-  design.curves = ensemble_curves(design.problem, members, law, *design.ensemble,
+  design.curves = ensemble_curves(design.problem, members, controller, *design.ensemble,
                                   highest_compared_speed(design.design_speed, limits), threads);
-  const auto met = plants_within_budgets(design.problem, members, law, design.goals, budgets,
+  const auto met = plants_within_budgets(design.problem, members, controller, design.goals, budgets,
                                          design.effect, threads);
   for (std::size_t i = 0; i < met.size(); ++i) design.budgets[i].plants_met = met[i];
 }

@@ -28,7 +28,7 @@ struct RecommendedDesign {
   TunedFor tuned_for = TunedFor::nominal;
   Fitness fitness = Fitness::unstable;  // of its assessment_of; decides the recommendation
   TrackingProblem problem;              // the problem that was tuned
-  HardGoals goals;
+  Constraints goals;
   Design design;
   /// Effect applied to the linear rms when budgets are evaluated (NonlinearEffect::for_budgets),
   /// also at other wind speeds, with other wind models and on ensemble members. Without a
@@ -37,14 +37,14 @@ struct RecommendedDesign {
   std::vector<std::string> ties;  // description_of other controllers that tied_with finds
   /// The antenna's present gains, evaluated on the same plant; where the mission states none, the
   /// controller of retuned_present.
-  struct PresentLaw {
+  struct PresentController {
     std::string structure;
     Design design;
     bool retuned = false;  // not the antenna's own gains
     /// Over several records of wind (rad), of a retuned controller that was simulated.
     std::optional<double> simulated_rms = std::nullopt;
   };
-  std::vector<PresentLaw> present;
+  std::vector<PresentController> present;
   /// The mission states no present gains, and this controller is that of retuned_present: `present`
   /// is empty.
   bool is_retuned_present = false;
@@ -53,22 +53,22 @@ struct RecommendedDesign {
   plant::WindSite wind_site;
   struct SeedResult {
     std::uint64_t seed = 0;
-    double beam_rms = 0.0;  // rad
+    double boresight_rms = 0.0;  // rad
     bool verified = false;
   };
   std::vector<SeedResult> seeds;
   int seeds_within_1_percent = 0;
   struct WindAlternative {
     plant::WindModel model = plant::WindModel::coherence;
-    double beam_rms = 0.0;                  // rad, same gains
+    double boresight_rms = 0.0;             // rad, same gains
     std::vector<double> speed_limits = {};  // m/s, one per budget
   };
   std::vector<WindAlternative> wind_alternatives;
   /// Rms of the flexure beyond the encoder with the encoder at rest (rad). Not a bound: a loop can
   /// move the encoder against the flexure.
-  double encoder_held_rms = 0.0;
+  double flexure_rms = 0.0;
   /// torque_limited_wind_speed.
-  double supply_wind_speed = std::numeric_limits<double>::infinity();
+  double torque_limited_wind_speed = std::numeric_limits<double>::infinity();
   double static_bending = 0.0;  // rad under the mean wind: the pointing calibration must remove it
   struct BandLoss {
     PointingBand band;

@@ -4,14 +4,14 @@
 
 namespace boresight::design {
 
-const TunedLaw* retuned_present(const TuningStudy& study, const std::string& present_structure,
-                                double wind_speed) {
-  const auto order = [](const TunedLaw& row) {
-    return std::tuple(row.design.tuning.law.structure.gains().size(), row.structure,
+const TunedController* retuned_present(const TuningStudy& study,
+                                       const std::string& present_structure, double wind_speed) {
+  const auto order = [](const TunedController& row) {
+    return std::tuple(row.design.tuning.controller.structure.gains().size(), row.structure,
                       row.tuned_for != TunedFor::robust);
   };
-  const TunedLaw* chosen = nullptr;
-  for (const auto& row : study.laws) {
+  const TunedController* chosen = nullptr;
+  for (const auto& row : study.controllers) {
     if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed || !row.stable()) {
       continue;
     }

@@ -10,7 +10,7 @@ namespace boresight::design {
 /// structure, tuned for the study's plant. Without a `present_structure` (empty): the structure of
 /// fewest gains, the first by name of several. The robust design of that wind speed (m/s), the
 /// nominal one where the robust is unstable. Null without a stable design of that structure.
-const TunedLaw* retuned_present(const TuningStudy& study, const std::string& present_structure,
-                                double wind_speed);
+const TunedController* retuned_present(const TuningStudy& study,
+                                       const std::string& present_structure, double wind_speed);
 
 }  // namespace boresight::design

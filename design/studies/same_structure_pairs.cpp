@@ -3,20 +3,22 @@
 #include <cmath>
 #include <utility>
 
-#include <boresight/design/studies/held_candidate.hpp>
+#include <boresight/design/studies/fixed_gain_candidate.hpp>
 #include <boresight/design/studies/same_structure_pairs.hpp>
 
 namespace boresight::design {
 namespace {
 
 // A law that can be held on draws; none where no such one of that structure was tuned.
-std::optional<std::size_t> law_of(const ProposedDesign& candidate, const std::string& structure) {
-  const auto found = std::ranges::find(candidate.laws, structure, &CandidateLaw::structure);
-  if (found == candidate.laws.end() || !found->stable() ||
-      !std::isfinite(found->nonlinear_factor())) {
+std::optional<std::size_t> controller_of(const ProposedDesign& candidate,
+                                         const std::string& structure) {
+  const auto found =
+      std::ranges::find(candidate.controllers, structure, &CandidateController::structure);
+  if (found == candidate.controllers.end() || !found->stable() ||
+      !std::isfinite(found->simulated_to_linear_rms())) {
     return std::nullopt;
   }
-  return static_cast<std::size_t>(found - candidate.laws.begin());
+  return static_cast<std::size_t>(found - candidate.controllers.begin());
 }
 
 // Columns of rms by candidate and law; those that the choice has not judged yet are held here.
@@ -30,21 +32,21 @@ class Columns {
     }
   }
 
-  Eigen::Index column(std::size_t candidate, std::size_t law, const plant::Antenna& as_is,
+  Eigen::Index column(std::size_t candidate, std::size_t controller, const plant::Antenna& as_is,
                       const Mission& mission) {
-    const std::pair key(candidate, law);
+    const std::pair key(candidate, controller);
     const auto found = std::ranges::find(keys_, key);
     const auto place = static_cast<Eigen::Index>(found - keys_.begin());
     if (found == keys_.end()) {
       keys_.push_back(key);
-      held_.emplace_back(as_is, mission, candidates_[candidate].laws[law]);
+      held_.emplace_back(as_is, mission, candidates_[candidate].controllers[controller]);
     }
     return place;
   }
 
-  bool judge(const PlantDistribution& distribution, const ProposalOptions& options) {
+  bool evaluate(const PlantDistribution& distribution, const ProposalOptions& options) {
     if (held_.empty()) return true;
-    const auto outcomes = judge_draws(held_, distribution, options);
+    const auto outcomes = evaluate_samples(held_, distribution, options);
     if (!outcomes) return false;
     Eigen::MatrixXd all(rms_.rows(), rms_.cols() + outcomes->rms.cols());
     all << rms_, outcomes->rms;
@@ -61,12 +63,12 @@ class Columns {
   const std::vector<ProposedDesign>& candidates_;
   Eigen::MatrixXd rms_;  // mdeg
   std::vector<std::pair<std::size_t, std::size_t>> keys_;
-  std::vector<HeldCandidate> held_;
+  std::vector<FixedGainCandidate> held_;
 };
 
 struct Comparison {
   std::size_t pair = 0;
-  std::size_t first_law = 0, second_law = 0;
+  std::size_t first_controller = 0, second_controller = 0;
   Eigen::Index first = 0, second = 0;  // columns
 };
 
@@ -85,13 +87,13 @@ std::optional<std::vector<PairByStructure>> compare_by_structure(
     const std::size_t k = decision.candidates[pair.second].candidate;
     const ProposedDesign& first = candidates[i];
     const ProposedDesign& second = candidates[k];
-    const CandidateLaw* first_law = first.chosen_law();
-    const CandidateLaw* second_law = second.chosen_law();
-    if (first_law == nullptr || second_law == nullptr) continue;
+    const CandidateController* first_controller = first.chosen_controller();
+    const CandidateController* second_controller = second.chosen_controller();
+    if (first_controller == nullptr || second_controller == nullptr) continue;
     const bool one_antenna = !first.changed && !second.changed;
-    if (first_law->structure == second_law->structure || one_antenna) continue;
-    for (const auto& structure : {first_law->structure, second_law->structure}) {
-      const auto one = law_of(first, structure), other = law_of(second, structure);
+    if (first_controller->structure == second_controller->structure || one_antenna) continue;
+    for (const auto& structure : {first_controller->structure, second_controller->structure}) {
+      const auto one = controller_of(first, structure), other = controller_of(second, structure);
       if (!one || !other) continue;
       const Eigen::Index of_first = columns.column(i, *one, as_is, *missions[i]);
       comparisons.push_back(
@@ -99,12 +101,13 @@ std::optional<std::vector<PairByStructure>> compare_by_structure(
     }
     pairs.push_back({pair.first, pair.second, {}});
   }
-  if (!columns.judge(distribution, options)) return std::nullopt;
+  if (!columns.evaluate(distribution, options)) return std::nullopt;
   for (const auto& one : comparisons) {
     PairByStructure& pair = pairs[one.pair];
-    const auto& first = candidates[decision.candidates[pair.first].candidate].laws[one.first_law];
+    const auto& first =
+        candidates[decision.candidates[pair.first].candidate].controllers[one.first_controller];
     const auto& second =
-        candidates[decision.candidates[pair.second].candidate].laws[one.second_law];
+        candidates[decision.candidates[pair.second].candidate].controllers[one.second_controller];
     const auto compared = columns.compare(one.first, one.second);
     pair.structures.push_back({first.structure, compared.better, compared.mean_gain,
                                compared.gain_error, first.usable(), second.usable()});

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <utility>
 
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -15,7 +15,7 @@ namespace {
 TimeDomainStudy plan(const Mission& mission, const TrackingProblem& problem,
                      std::string_view description, std::uint64_t seed, unsigned threads) {
   TimeDomainStudy section;
-  section.law = description;
+  section.controller = description;
   section.wind_speed = problem.wind.mean_speed;
   // Rounding to steps q errs by q/sqrt(12) rms.
   section.encoder_resolution = std::sqrt(12.0) * mission.antenna.sensors.encoder_noise;
@@ -38,15 +38,15 @@ bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
 }
 
 SimulatedLoop loop_of(const Mission& mission, const TrackingProblem& problem,
-                      const control::ControlLaw& law, double encoder_resolution) {
-  auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), law);
+                      const control::Controller& controller, double encoder_resolution) {
+  auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), controller);
   loop.encoder_resolution = encoder_resolution * problem.gear_ratio;
   return loop;
 }
 
 SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
-                       const control::ControlLaw& law, TimeDomainStudy& section) {
-  auto loop = loop_of(mission, problem, law, section.encoder_resolution);
+                       const control::Controller& controller, TimeDomainStudy& section) {
+  auto loop = loop_of(mission, problem, controller, section.encoder_resolution);
   section.sample_time = loop.sample_time;
   section.result = verify_in_time(problem, loop, section.options);
   const auto& slew = section.result.slew;
@@ -79,13 +79,13 @@ void count_budgets(const Mission& mission, double wind_speed, Assessment& assess
 }
 
 TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
-                       const control::ControlLaw& law, TimeDomainStudy section,
+                       const control::Controller& controller, TimeDomainStudy section,
                        int records = SimulatedRmsOptions{}.records) {
-  const SimulatedLoop loop = simulate(mission, problem, law, section);
+  const SimulatedLoop loop = simulate(mission, problem, controller, section);
   const WindResult& wind = section.result.wind;
   Eigen::VectorXd known;
   if (wind.status == RunStatus::complete && section.options.seeds.size() == 1) {
-    known = Eigen::VectorXd::Constant(1, wind.beam_rms * wind.beam_rms);
+    known = Eigen::VectorXd::Constant(1, wind.boresight_rms * wind.boresight_rms);
   }
   section.rms = expected_rms(problem, loop, section.options, records, std::move(known));
   return section;
@@ -98,12 +98,12 @@ constexpr double contending = 0.1;
 
 // Runs it in the records that it lacks; false if there are none.
 bool complete_records(const Mission& mission, const TrackingProblem& problem,
-                      const control::ControlLaw& law, TimeDomainStudy& section) {
+                      const control::Controller& controller, TimeDomainStudy& section) {
   const int all = SimulatedRmsOptions{}.records;
   if (!section.rms || section.rms->status != RunStatus::complete || section.rms->records >= all) {
     return false;
   }
-  const auto loop = loop_of(mission, problem, law, section.encoder_resolution);
+  const auto loop = loop_of(mission, problem, controller, section.encoder_resolution);
   section.rms = expected_rms(problem, loop, section.options, all, section.rms->mean_squares);
   return true;
 }
@@ -112,7 +112,7 @@ bool complete_records(const Mission& mission, const TrackingProblem& problem,
 void add_own_present(const Mission& mission, const TrackingProblem& problem,
                      TimeDomainStudy& section) {
   if (mission.present_controllers.empty()) return;
-  const control::ControlLaw& present = mission.present_controllers.front().law;
+  const control::Controller& present = mission.present_controllers.front().controller;
   add_present(mission, problem, {present.structure.name(), present}, false, section);
 }
 
@@ -120,20 +120,21 @@ void add_own_present(const Mission& mission, const TrackingProblem& problem,
 
 void add_present(const Mission& mission, const TrackingProblem& problem,
                  const NamedController& controller, bool retuned, TimeDomainStudy& study) {
-  const SimulatedLoop loop = loop_of(mission, problem, controller.law, study.encoder_resolution);
+  const SimulatedLoop loop =
+      loop_of(mission, problem, controller.controller, study.encoder_resolution);
   study.present = {controller.name, error_in_wind(problem, loop, study.options), retuned};
 }
 
 NonlinearEffect SimulatedCandidate::effect() const {
   return NonlinearEffect::of_simulation(simulated_rms(), result.wind.predicted_rms,
-                                        hunting_amplitude(result.hunting));
+                                        limit_cycle_amplitude(result.limit_cycles));
 }
 
 std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
                                                 const SimulatedCandidate& to) {
   if (!from.rms || !to.rms) return std::nullopt;
-  return relative_change({*from.rms, hunting_amplitude(from.result.hunting)},
-                         {*to.rms, hunting_amplitude(to.result.hunting)});
+  return relative_change({*from.rms, limit_cycle_amplitude(from.result.limit_cycles)},
+                         {*to.rms, limit_cycle_amplitude(to.result.limit_cycles)});
 }
 
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
@@ -145,49 +146,49 @@ Assessment assessment_of(const NamedController& controller, const NonlinearVerif
                          const std::optional<SimulatedRms>& expected, double budget) {
   Assessment assessment;
   assessment.structure = controller.name;
-  assessment.parts = controller.law.structure.gains().size();
+  assessment.parts = controller.controller.structure.gains().size();
   assessment.stable = assessment.verified = true;
   assessment.nominal_constraints_met = assessment.member_constraints_met = true;
   assessment.linear_rms = result.wind.predicted_rms;
-  assessment.simulated_rms = expected ? expected->rms.value : result.wind.beam_rms;
+  assessment.simulated_rms = expected ? expected->rms.value : result.wind.boresight_rms;
   assessment.expected = expected;
-  assessment.limit_cycle_amplitude = hunting_amplitude(result.hunting);
-  assessment.limit_cycles =
-      limit_cycle_verdict(holds_still(result.hunting, budget), hunting_seen(result.hunting));
+  assessment.limit_cycle_amplitude = limit_cycle_amplitude(result.limit_cycles);
+  assessment.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(result.limit_cycles, budget),
+                                                limit_cycle_seen(result.limit_cycles));
   return assessment;
 }
 
 std::optional<TimeDomainStudy> verify_in_time_domain(
-    const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
+    const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
     std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second) {
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
-  section = verify(mission, problem, law, std::move(section));
+  section = verify(mission, problem, controller, std::move(section));
   add_own_present(mission, problem, section);
   return section;
 }
 
-std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
-                                                     const TrackingProblem& problem,
-                                                     const std::vector<NamedController>& laws,
-                                                     std::uint64_t seed, unsigned threads,
-                                                     ChoiceDetail detail) {
-  if (laws.empty()) throw InvalidInput("choose_in_time_domain: expected laws, found none");
+std::optional<TimeDomainStudy> choose_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem,
+    const std::vector<NamedController>& controllers, std::uint64_t seed, unsigned threads,
+    ChoiceDetail detail) {
+  if (controllers.empty())
+    throw InvalidInput("choose_in_time_domain: expected controllers, found none");
   if (!mission.antenna.nonlinear) return std::nullopt;
   std::vector<TimeDomainStudy> sections;
   std::vector<Assessment> assessments;
   const auto assess_again = [&](std::size_t i) {
     const TimeDomainStudy& seen = sections[i];
-    assessments[i] = assessment_of(laws[i], seen.result, seen.rms, tightest_budget(mission));
+    assessments[i] = assessment_of(controllers[i], seen.result, seen.rms, tightest_budget(mission));
     count_budgets(mission, problem.wind.mean_speed, assessments[i]);
   };
   const auto winds = std::make_shared<SharedWinds>();
-  for (const auto& one : laws) {
+  for (const auto& one : controllers) {
     TimeDomainStudy section = plan(mission, problem, one.name, seed, threads);
     section.options.explain = false;
     section.options.winds = winds;
-    sections.push_back(verify(mission, problem, one.law, std::move(section), first_records));
+    sections.push_back(verify(mission, problem, one.controller, std::move(section), first_records));
     assessments.emplace_back();
     assess_again(sections.size() - 1);
   }
@@ -197,9 +198,9 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
     best = recommend(assessments, {.accepted = Fitness::unstable}).winner.value_or(0);
     const Assessment winner = assessments[best];
     settled = true;
-    for (std::size_t i = 0; i < laws.size(); ++i) {
+    for (std::size_t i = 0; i < controllers.size(); ++i) {
       if (i != best && !are_tied(assessments[i], winner, contending)) continue;
-      if (!complete_records(mission, problem, laws[i].law, sections[i])) continue;
+      if (!complete_records(mission, problem, controllers[i].controller, sections[i])) continue;
       assess_again(i);
       settled = false;
     }
@@ -207,13 +208,14 @@ std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
   TimeDomainStudy chosen = sections[best];
   if (detail == ChoiceDetail::verified) {
     chosen.options.explain = chosen.options.second_integrator = true;
-    explain_in_wind(problem, loop_of(mission, problem, laws[best].law, chosen.encoder_resolution),
-                    chosen.options, chosen.result);
+    explain_in_wind(
+        problem, loop_of(mission, problem, controllers[best].controller, chosen.encoder_resolution),
+        chosen.options, chosen.result);
     add_own_present(mission, problem, chosen);
   }
   if (sections.size() == 1) return chosen;
   for (auto& one : sections) {
-    chosen.candidates.push_back({one.law, std::move(one.result), std::move(one.rms)});
+    chosen.candidates.push_back({one.controller, std::move(one.result), std::move(one.rms)});
   }
   return chosen;
 }
@@ -226,12 +228,12 @@ NonlinearVerificationOptions comparison_options(const Mission& mission, std::uin
 }
 
 std::optional<NonlinearVerification> run_in_time_domain(
-    const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
+    const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
     const NonlinearVerificationOptions& options) {
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, "", options.seeds.front(), options.threads);
   section.options = options;
-  simulate(mission, problem, law, section);
+  simulate(mission, problem, controller, section);
   return std::move(section.result);
 }
 
@@ -242,19 +244,19 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
   TimeDomainStudy section =
       plan(mission, problem, controller.name, options.seeds.front(), options.threads);
   section.options = options;
-  section = verify(mission, problem, controller.law, std::move(section));
+  section = verify(mission, problem, controller.controller, std::move(section));
   return TimeDomainStudy::Candidate{controller.name, std::move(section.result),
                                     std::move(section.rms)};
 }
 
-NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
+NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads) {
   if (!mission.antenna.nonlinear) return {};
   const auto problem = tracking_problem(mission);
   TimeDomainStudy section = plan(mission, problem, "", seed, threads);
   section.options.explain = false;
   section.options.slew_distance = 0.0;
-  return verify(mission, problem, law, std::move(section)).own().effect();
+  return verify(mission, problem, controller, std::move(section)).own().effect();
 }
 
 }  // namespace boresight::design

@@ -15,13 +15,13 @@ namespace boresight::design {
 
 /// One of several controllers compared on the nonlinear antenna.
 struct SimulatedCandidate {
-  std::string law;  // NamedController::name
+  std::string controller;  // NamedController::name
   NonlinearVerification result;
   std::optional<SimulatedRms> rms = std::nullopt;  // over several records of wind
 
   /// The rms by which it is compared (rad): over several records, or of the single record without
   /// them. NaN where a run did not complete.
-  double simulated_rms() const { return rms ? rms->rms.value : result.wind.beam_rms; }
+  double simulated_rms() const { return rms ? rms->rms.value : result.wind.boresight_rms; }
   /// Its effect beyond the linear prediction.
   NonlinearEffect effect() const;
 };
@@ -32,7 +32,7 @@ std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
 
 /// A tuned controller simulated on the nonlinear antenna of its mission.
 struct TimeDomainStudy {
-  std::string law;           // NamedController::name
+  std::string controller;    // NamedController::name
   double wind_speed = 0.0;   // m/s, mean
   double sample_time = 0.0;  // s, of the controller
   /// Encoder steps at the sky (rad) whose rounding error equals the encoder noise.
@@ -59,7 +59,7 @@ struct TimeDomainStudy {
   std::vector<Candidate> candidates;
 
   /// This controller as a candidate.
-  Candidate own() const { return {law, result, rms}; }
+  Candidate own() const { return {controller, result, rms}; }
 };
 
 /// Whether CVODES repeats the run in wind (integrator_agreement), which takes about as long as all
@@ -77,7 +77,7 @@ enum class ChoiceDetail { compared, verified };
 /// 70-m antenna, over `threads`, and 2 s for a second integrator. None without Antenna::nonlinear.
 /// The result does not depend on the number of threads. @throws as verify_in_time.
 std::optional<TimeDomainStudy> verify_in_time_domain(
-    const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
+    const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
     std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);
 
 /// Simulates a controller in the wind record of the study's result, as its `present`. The problem
@@ -85,7 +85,7 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
 void add_present(const Mission& mission, const TrackingProblem& problem,
                  const NamedController& controller, bool retuned, TimeDomainStudy& study);
 
-/// `within_budget`: holds_still within the tightest budget; `shown`: hunting_seen.
+/// `within_budget`: is_limit_cycle_free within the tightest budget; `shown`: limit_cycle_seen.
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 
 /// The assessment that recommend() compares, of a controller that meets every constraint, from its
@@ -100,25 +100,24 @@ Assessment assessment_of(const NamedController& controller, const NonlinearVerif
 /// figure run in all records of SimulatedRmsOptions. `detail`: of
 /// its results; the others' results are its candidates. None without Antenna::nonlinear.
 /// @throws InvalidInput without controllers; as verify_in_time.
-std::optional<TimeDomainStudy> choose_in_time_domain(const Mission& mission,
-                                                     const TrackingProblem& problem,
-                                                     const std::vector<NamedController>& laws,
-                                                     std::uint64_t seed, unsigned threads,
-                                                     ChoiceDetail detail);
+std::optional<TimeDomainStudy> choose_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem,
+    const std::vector<NamedController>& controllers, std::uint64_t seed, unsigned threads,
+    ChoiceDetail detail);
 
 /// Options for comparing several controllers on the nonlinear antenna: as verify_in_time_domain,
 /// without the slew and without separate influences.
 NonlinearVerificationOptions comparison_options(const Mission& mission, std::uint64_t seed);
 /// Simulates one of them. None without Antenna::nonlinear. @throws as verify_in_time.
 std::optional<NonlinearVerification> run_in_time_domain(
-    const Mission& mission, const TrackingProblem& problem, const control::ControlLaw& law,
+    const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
     const NonlinearVerificationOptions& options);
 /// The same with the rms over several records of wind.
 std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options);
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
-NonlinearEffect simulated_effect(const Mission& mission, const control::ControlLaw& law,
+NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads);
 
 }  // namespace boresight::design

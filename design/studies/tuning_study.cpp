@@ -21,10 +21,10 @@ struct TuningUnit {
   std::string name;
   control::LoopStructure structure;
   double wind_speed = 0.0;
-  std::optional<control::ControlLaw> present = std::nullopt;
+  std::optional<control::Controller> present = std::nullopt;
   bool asked = true;                    // else only to start others from
   std::vector<std::size_t> parts = {};  // units whose structures this one extends
-  std::vector<TunedLaw> laws = {};
+  std::vector<TunedController> controllers = {};
   std::vector<TuningNotRun> not_run = {};
 };
 
@@ -50,24 +50,25 @@ class Study {
       search(unit, TunedFor::robust);
       return;
     }
-    TunedLaw row = new_row(unit, TunedFor::present);
+    TunedController row = new_row(unit, TunedFor::present);
     row.design = assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
-    unit.laws.push_back(std::move(row));
+    unit.controllers.push_back(std::move(row));
   }
 
   // Starts each law of a unit from those of its parts, so that none is worse than what it extends.
   void improve(TuningUnit& unit, const std::vector<TuningUnit>& units) const {
     bool other_nominal = false;
-    for (auto& row : unit.laws) {
+    for (auto& row : unit.controllers) {
       if (stopped()) return;
       const DesignTask task = task_of(unit, row.tuned_for);
       std::vector<std::vector<double>> starts;
-      if (other_nominal) starts.push_back(unit.laws.front().design.tuning.law.gains);
+      if (other_nominal) starts.push_back(unit.controllers.front().design.tuning.controller.gains);
       for (const std::size_t part : unit.parts) {
-        for (const auto& law : units[part].laws) {
-          if (law.tuned_for != row.tuned_for || !law.stable()) continue;
-          std::ranges::move(starts_from_part(law.design.tuning.law, unit.structure, options_.seed),
-                            std::back_inserter(starts));
+        for (const auto& controller : units[part].controllers) {
+          if (controller.tuned_for != row.tuned_for || !controller.stable()) continue;
+          std::ranges::move(
+              starts_from_part(controller.design.tuning.controller, unit.structure, options_.seed),
+              std::back_inserter(starts));
         }
       }
       other_nominal = improve_from(task, starts, row.design);
@@ -76,12 +77,12 @@ class Study {
 
   // What the laws mean at the sky and on the ensemble.
   void finish(TuningUnit& unit) const {
-    for (auto& row : unit.laws) {
+    for (auto& row : unit.controllers) {
       finish(row);
-      const bool every_member = !row.ensemble || row.ensemble->within_goals ==
+      const bool every_member = !row.ensemble || row.ensemble->within_constraints ==
                                                      static_cast<int>(row.ensemble->members.size());
-      row.goals_met = row.stable() && row.design.tuning.status == TuningStatus::optimal &&
-                      (row.tuned_for != TunedFor::robust || every_member);
+      row.constraints_met = row.stable() && row.design.tuning.status == TuningStatus::optimal &&
+                            (row.tuned_for != TunedFor::robust || every_member);
     }
   }
 
@@ -93,8 +94,8 @@ class Study {
     return problem;
   }
 
-  static TunedLaw new_row(const TuningUnit& unit, TunedFor purpose) {
-    TunedLaw row;
+  static TunedController new_row(const TuningUnit& unit, TunedFor purpose) {
+    TunedController row;
     row.structure = unit.name;
     row.tuned_for = purpose;
     row.wind_speed = unit.wind_speed;
@@ -113,12 +114,13 @@ class Study {
     task.options.starts =
         unit.asked ? section_.starts : std::min(section_.starts, starts_of_a_part);
     task.options.stop = options_.interrupted;
-    for (const auto& [name, law] : mission_.present_controllers) {
-      if (law.structure == unit.structure) task.options.warm_starts.push_back(law.gains);
+    for (const auto& [name, controller] : mission_.present_controllers) {
+      if (controller.structure == unit.structure)
+        task.options.warm_starts.push_back(controller.gains);
     }
     if (purpose == TunedFor::robust) {
       task.options.members = ensemble_.members;
-      task.options.soft_goal = section_.soft_goal;
+      task.options.objective = section_.objective;
     }
     return task;
   }
@@ -129,37 +131,39 @@ class Study {
       return;
     }
     DesignTask task = task_of(unit, purpose);
-    if (!unit.laws.empty() && unit.laws.front().stable()) {
-      task.options.warm_starts.push_back(unit.laws.front().design.tuning.law.gains);
+    if (!unit.controllers.empty() && unit.controllers.front().stable()) {
+      task.options.warm_starts.push_back(unit.controllers.front().design.tuning.controller.gains);
     }
-    TunedLaw row = new_row(unit, purpose);
+    TunedController row = new_row(unit, purpose);
     row.design = solve(task);
-    unit.laws.push_back(std::move(row));
+    unit.controllers.push_back(std::move(row));
   }
 
-  void finish(TunedLaw& row) const {
-    const control::ControlLaw& law = row.design.tuning.law;
+  void finish(TunedController& row) const {
+    const control::Controller& controller = row.design.tuning.controller;
     if (!row.stable()) {
-      row.beam_rms = std::numeric_limits<double>::quiet_NaN();
-      row.speed_limits.assign(section_.budgets.size(), row.beam_rms);
+      row.boresight_rms = std::numeric_limits<double>::quiet_NaN();
+      row.speed_limits.assign(section_.budgets.size(), row.boresight_rms);
       return;
     }
     TrackingProblem problem = problem_;
     problem.wind.mean_speed = row.wind_speed;
     control::LoopEvaluator evaluator = make_evaluator(problem);
-    const auto evaluation = evaluator.evaluate(law, false);
-    row.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
-    row.speed_limits = budget_speeds(problem, evaluator, law, evaluation.noise_variance,
+    const auto evaluation = evaluator.evaluate(controller, false);
+    row.boresight_rms = std::sqrt(evaluation.boresight_variance()) / problem.gear_ratio;
+    row.speed_limits = budget_speeds(problem, evaluator, controller, evaluation.noise_variance,
                                      section_.budgets, NonlinearEffect{});
     if (!mission_.climate.empty()) {
       problem.climate = mission_.climate;
-      row.climate_rms = std::sqrt(make_evaluator(problem).evaluate(law, false).beam_variance()) /
-                        problem.gear_ratio;
+      row.climate_rms =
+          std::sqrt(make_evaluator(problem).evaluate(controller, false).boresight_variance()) /
+          problem.gear_ratio;
     }
     if (!ensemble_.members.empty()) {
-      row.ensemble = judge(problem_at(row.wind_speed), ensemble_.members, law, section_.goals, 1);
+      row.ensemble =
+          evaluate(problem_at(row.wind_speed), ensemble_.members, controller, section_.goals, 1);
     }
-    row.trade = position_gain_trade(problem, row.design.tuning, row.beam_rms, section_.goals,
+    row.trade = position_gain_trade(problem, row.design.tuning, row.boresight_rms, section_.goals,
                                     ensemble_.members);
   }
 
@@ -203,8 +207,8 @@ std::vector<TuningUnit> units_of(const Mission& mission, std::vector<NamedStruct
   const auto parts = parts_of(structures_of(named));
   std::vector<TuningUnit> units;
   for (const double speed : wind_speeds) {
-    for (const auto& [name, law] : mission.present_controllers) {
-      units.push_back({name, law.structure, speed, law});
+    for (const auto& [name, controller] : mission.present_controllers) {
+      units.push_back({name, controller.structure, speed, controller});
     }
     const std::size_t first = units.size();
     for (std::size_t s = 0; s < named.size(); ++s) {
@@ -218,10 +222,12 @@ std::vector<TuningUnit> units_of(const Mission& mission, std::vector<NamedStruct
 }
 
 // Whether a tuned law is good for everything but for its verification.
-bool only_unverified(const std::vector<TunedLaw>& laws) {
-  const auto tuned = [](const TunedLaw& row) { return row.tuned_for != TunedFor::present; };
-  return std::ranges::any_of(laws, [&](const auto& row) { return tuned(row) && row.goals_met; }) &&
-         std::ranges::none_of(laws, [&](const auto& row) { return tuned(row) && row.usable(); });
+bool only_unverified(const std::vector<TunedController>& controllers) {
+  const auto tuned = [](const TunedController& row) { return row.tuned_for != TunedFor::present; };
+  return std::ranges::any_of(controllers,
+                             [&](const auto& row) { return tuned(row) && row.constraints_met; }) &&
+         std::ranges::none_of(controllers,
+                              [&](const auto& row) { return tuned(row) && row.usable(); });
 }
 
 }  // namespace
@@ -231,43 +237,44 @@ std::string_view to_string(TunedFor purpose) {
   return names.at(static_cast<std::size_t>(purpose));
 }
 
-NonlinearEffect TunedLaw::effect() const {
+NonlinearEffect TunedController::effect() const {
   if (!in_time) return {};
-  return NonlinearEffect::of_simulation(in_time->rms(), beam_rms, in_time->hunting);
+  return NonlinearEffect::of_simulation(in_time->rms(), boresight_rms, in_time->limit_cycles);
 }
 
-double TunedLaw::budget_rms() const {
+double TunedController::budget_rms() const {
   return std::hypot(wind_rms(), limit_cycle_rms(effect().amplitude));
 }
 
-bool TunedLaw::keeps(double rms) const {
-  if (in_time && (!in_time->hunting_seen || !std::isfinite(in_time->rms()))) return false;
+bool TunedController::keeps(double rms) const {
+  if (in_time && (!in_time->limit_cycle_seen || !std::isfinite(in_time->rms()))) return false;
   return within_budget(budget_rms(), rms);
 }
 
-Assessment assessment_of(const TuningStudy& section, const TunedLaw& row, bool with_simulation) {
+Assessment assessment_of(const TuningStudy& section, const TunedController& row,
+                         bool with_simulation) {
   const bool robust = row.tuned_for == TunedFor::robust;
   Assessment result;
   result.structure = row.structure;
   result.purpose = robust ? DesignPurpose::robust : DesignPurpose::nominal;
-  result.parts = row.design.tuning.law.structure.gains().size();
+  result.parts = row.design.tuning.controller.structure.gains().size();
   result.stable = row.stable();
   result.verified = row.design.verification.passed;
-  result.nominal_constraints_met = row.goals_met;
-  result.member_constraints_met = robust && row.goals_met;
-  result.linear_rms = row.beam_rms;
+  result.nominal_constraints_met = row.constraints_met;
+  result.member_constraints_met = robust && row.constraints_met;
+  result.linear_rms = row.boresight_rms;
   if (with_simulation && row.in_time) {
-    const LawInTime& run = *row.in_time;
+    const ControllerInTime& run = *row.in_time;
     result.simulated_rms = run.rms();
     result.expected = run.expected;
-    result.limit_cycle_amplitude = run.hunting;
-    result.limit_cycles = limit_cycle_verdict(run.still, run.hunting_seen);
+    result.limit_cycle_amplitude = run.limit_cycles;
+    result.limit_cycles = limit_cycle_verdict(run.limit_cycle_free, run.limit_cycle_seen);
   }
   for (const auto& budget : section.budgets) {
     if (budget.wind_speed == row.wind_speed) count_budget(budget.rms, result);
   }
-  if (section.beam_rms_goal && row.wind_speed == section.wind_speeds.front()) {
-    count_budget(*section.beam_rms_goal, result);
+  if (section.boresight_rms_goal && row.wind_speed == section.wind_speeds.front()) {
+    count_budget(*section.boresight_rms_goal, result);
   }
   return result;
 }
@@ -276,7 +283,7 @@ namespace {
 
 // The tuned controllers of one wind speed, and the choice among them.
 struct Choice {
-  std::vector<const TunedLaw*> rows;
+  std::vector<const TunedController*> rows;
   Recommendation recommendation;
 };
 
@@ -284,7 +291,7 @@ Choice choose_at(const TuningStudy& section, double wind_speed, bool with_simula
                  const RecommendOptions& options) {
   Choice choice;
   std::vector<Assessment> candidates;
-  for (const auto& row : section.laws) {
+  for (const auto& row : section.controllers) {
     if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed) continue;
     choice.rows.push_back(&row);
     candidates.push_back(assessment_of(section, row, with_simulation));
@@ -295,30 +302,33 @@ Choice choose_at(const TuningStudy& section, double wind_speed, bool with_simula
 
 }  // namespace
 
-const TunedLaw* recommended_at(const TuningStudy& section, double wind_speed, bool with_simulation,
-                               const RecommendOptions& options) {
+const TunedController* recommended_at(const TuningStudy& section, double wind_speed,
+                                      bool with_simulation, const RecommendOptions& options) {
   const Choice choice = choose_at(section, wind_speed, with_simulation, options);
   const auto winner = choice.recommendation.winner;
   return winner ? choice.rows[*winner] : nullptr;
 }
 
-std::vector<const TunedLaw*> tied_with(const TuningStudy& section, const TunedLaw& recommended) {
+std::vector<const TunedController*> tied_with(const TuningStudy& section,
+                                              const TunedController& recommended) {
   const Choice choice = choose_at(section, recommended.wind_speed, true, {});
-  std::vector<const TunedLaw*> tied;
+  std::vector<const TunedController*> tied;
   for (const auto& rejected : choice.recommendation.rejected) {
     if (rejected.tied) tied.push_back(choice.rows[rejected.index]);
   }
   return tied;
 }
 
-std::optional<numerics::Interval> figure_change(const TunedLaw& from, const TunedLaw& to) {
+std::optional<numerics::Interval> figure_change(const TunedController& from,
+                                                const TunedController& to) {
   if (!from.in_time || !to.in_time) return std::nullopt;
-  const LawInTime &one = *from.in_time, &other = *to.in_time;
+  const ControllerInTime &one = *from.in_time, &other = *to.in_time;
   if (!one.expected || !other.expected) return std::nullopt;
-  return relative_change({*one.expected, one.hunting}, {*other.expected, other.hunting});
+  return relative_change({*one.expected, one.limit_cycles}, {*other.expected, other.limit_cycles});
 }
 
-const TunedLaw* best_law(const TuningStudy& section, std::optional<double> wind_speed) {
+const TunedController* best_controller(const TuningStudy& section,
+                                       std::optional<double> wind_speed) {
   // Round-off of the search does not outweigh robustness.
   RecommendOptions options{.tie = 1e-3};
   const auto best_at = [&](double speed) { return recommended_at(section, speed, false, options); };
@@ -326,18 +336,19 @@ const TunedLaw* best_law(const TuningStudy& section, std::optional<double> wind_
   for (const auto accepted : {Fitness::misses_budget, Fitness::misses_member}) {
     options.accepted = accepted;
     for (const double speed : section.wind_speeds) {
-      if (const TunedLaw* best = best_at(speed)) return best;
+      if (const TunedController* best = best_at(speed)) return best;
     }
   }
   return nullptr;
 }
 
-const TunedLaw* nearest_to_budget(const TuningStudy& section, std::optional<double> wind_speed) {
-  const TunedLaw* linear = best_law(section, wind_speed);
+const TunedController* nearest_to_budget(const TuningStudy& section,
+                                         std::optional<double> wind_speed) {
+  const TunedController* linear = best_controller(section, wind_speed);
   if (linear == nullptr) return nullptr;
-  const auto least = [&](bool left_out) {
-    const TunedLaw* nearest = nullptr;
-    for (const auto& row : section.laws) {
+  const auto minimum = [&](bool left_out) {
+    const TunedController* nearest = nullptr;
+    for (const auto& row : section.controllers) {
       if (row.tuned_for != linear->tuned_for || row.wind_speed != linear->wind_speed) continue;
       if (!row.usable() || row.left_out() != left_out) continue;
       if (row.in_time && !std::isfinite(row.in_time->rms())) continue;
@@ -345,14 +356,15 @@ const TunedLaw* nearest_to_budget(const TuningStudy& section, std::optional<doub
     }
     return nearest;
   };
-  const TunedLaw* nearest = least(false);
-  if (nearest == nullptr) nearest = least(true);
+  const TunedController* nearest = minimum(false);
+  if (nearest == nullptr) nearest = minimum(true);
   return nearest != nullptr ? nearest : linear;
 }
 
-const TunedLaw* recommended_law(const TuningStudy& section, std::optional<double> wind_speed) {
+const TunedController* recommended_tuned_controller(const TuningStudy& section,
+                                                    std::optional<double> wind_speed) {
   if (!wind_speed) {
-    const TunedLaw* best = best_law(section);
+    const TunedController* best = best_controller(section);
     if (best == nullptr) return nullptr;
     wind_speed = best->wind_speed;
   }
@@ -367,8 +379,8 @@ TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensembl
   section.wind_speeds = speeds_of(mission, options);
   section.goals = constraints(mission);
   validate(section.goals);
-  section.soft_goal = mission.objective;
-  section.beam_rms_goal = mission.rms_goal;
+  section.objective = mission.objective;
+  section.boresight_rms_goal = mission.rms_goal;
   section.minimises_climate = mission.minimises_climate;
   section.bands = mission.bands;
   section.budgets = mission.budgets;
@@ -380,7 +392,7 @@ TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensembl
 
   const Study study(mission, ensemble, options, section);
   section.problem = tracking_problem(mission);
-  section.supply_wind_speed = torque_limited_wind_speed(mission);
+  section.torque_limited_wind_speed = torque_limited_wind_speed(mission);
   section.wind_model = section.problem.wind.model;
   section.climate = mission.climate_parts;
   auto units = units_of(mission, structures, section.wind_speeds);
@@ -400,10 +412,10 @@ TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensembl
   numerics::for_each_index(units.size(), options.threads,
                            [&](std::size_t i) { study.finish(units[i]); });
   for (auto& unit : units) {
-    std::ranges::move(unit.laws, std::back_inserter(section.laws));
+    std::ranges::move(unit.controllers, std::back_inserter(section.controllers));
     std::ranges::move(unit.not_run, std::back_inserter(section.not_run));
   }
-  section.unverified = only_unverified(section.laws);
+  section.unverified = only_unverified(section.controllers);
   return section;
 }
 

@@ -31,9 +31,10 @@ bool in_table(const MatchPoint& point, double as_built) {
   return point.on_grid || point.disks == as_built;
 }
 
-HeldState state_of(const PlantOutcome& outcome) {
-  if (!outcome.stable()) return HeldState::unstable;
-  return outcome.broken_goals != 0 ? HeldState::goals_missed : HeldState::goals_met;
+FixedGainState state_of(const PlantOutcome& outcome) {
+  if (!outcome.stable()) return FixedGainState::unstable;
+  return outcome.violated_constraints != 0 ? FixedGainState::constraints_missed
+                                           : FixedGainState::constraints_met;
 }
 
 }  // namespace
@@ -70,36 +71,36 @@ WhatIfTable what_if(const Mission& mission, const MatchingStudy& study,
                                   tracking / 1.5, tracking, 1.5 * tracking});
   table.wind_speeds = scaled(study.wind_speed, {0.5, 0.75, 1.0, 1.25, 1.5, 2.0});
 
-  const std::size_t laws = table.structures.size() * points.size();
+  const std::size_t controllers = table.structures.size() * points.size();
   const std::size_t entries =
       table.leakage_rates.size() * table.friction_slopes.size() * table.wind_speeds.size();
-  table.beam_rms.assign(laws * entries, std::numeric_limits<double>::quiet_NaN());
-  table.states.assign(laws * entries, HeldState::unstable);
+  table.boresight_rms.assign(controllers * entries, std::numeric_limits<double>::quiet_NaN());
+  table.states.assign(controllers * entries, FixedGainState::unstable);
 
   std::vector<TrackingProblem> problems;
   for (const std::size_t p : points) {
     problems.push_back(
         tracking_problem(mission, {plant::set_to("motor.flywheel_disks", study.points[p].disks)}));
   }
-  numerics::StepCounter counter(laws, options.progress);
-  numerics::for_each_index(laws, options.threads, [&](std::size_t i) {
+  numerics::StepCounter counter(controllers, options.progress);
+  numerics::for_each_index(controllers, options.threads, [&](std::size_t i) {
     if (options.interrupted && options.interrupted()) return;
     const std::size_t s = i / points.size(), d = i % points.size();
-    const auto& law = study.series[s].curve.laws[points[d]];
-    if (law.status != TuningStatus::unstable) {
+    const auto& controller = study.series[s].curve.controllers[points[d]];
+    if (controller.status != TuningStatus::unstable) {
       for (std::size_t v = 0; v < table.wind_speeds.size(); ++v) {
-        MonteCarlo held{problems[d], law.law, study.goals, 0, {}};
+        MonteCarlo held{problems[d], controller.controller, study.goals, 0, {}};
         held.problem.wind.mean_speed = table.wind_speeds[v];
-        MonteCarloJudge judge(held);
+        MonteCarloEvaluator evaluate(held);
         plant::AntennaPlant plant = held.problem.plant;
         for (std::size_t l = 0; l < table.leakage_rates.size(); ++l) {
           plant.drive.leakage_rate = table.leakage_rates[l];
           for (std::size_t f = 0; f < table.friction_slopes.size(); ++f) {
             plant.drive.viscous_friction = table.friction_slopes[f];
-            const auto outcome = judge.judge(plant, false);
+            const auto outcome = evaluate.evaluate(plant, false);
             const std::size_t place = table.place(s, d, l, f, v);
             table.states[place] = state_of(outcome);
-            table.beam_rms[place] = outcome.beam_rms;
+            table.boresight_rms[place] = outcome.boresight_rms;
           }
         }
       }

@@ -11,7 +11,7 @@
 namespace boresight::design {
 
 /// Result of a fixed-gain controller on one plant.
-enum class HeldState : std::uint8_t { unstable, goals_missed, goals_met };
+enum class FixedGainState : std::uint8_t { unstable, constraints_missed, constraints_met };
 
 /// The study's robust controllers, each evaluated with fixed gains at the motor inertia it was
 /// tuned for, at other values of leakage, friction and wind. It answers "what if" questions.
@@ -26,11 +26,11 @@ struct WhatIfTable {
   double tracking_friction = 0.0;  // N m s/rad, slope of the friction curve at the tracking rate
   std::vector<PointingBand> bands;
   std::vector<PointingBudget> budgets;
-  /// Indexed by structure, disks, leakage, friction and wind speed, the last fastest. `beam_rms`:
-  /// boresight rms at the sky (rad, per axis), NaN where unstable. `states`: stability and
-  /// constraints.
-  std::vector<double> beam_rms;
-  std::vector<HeldState> states;
+  /// Indexed by structure, disks, leakage, friction and wind speed, the last fastest.
+  /// `boresight_rms`: boresight rms at the sky (rad, per axis), NaN where unstable. `states`:
+  /// stability and constraints.
+  std::vector<double> boresight_rms;
+  std::vector<FixedGainState> states;
 
   std::size_t place(std::size_t structure, std::size_t disk, std::size_t leakage,
                     std::size_t friction, std::size_t speed) const;
@@ -49,7 +49,7 @@ struct WhatIfOptions {
 /// twice the design's. Constraints are evaluated in the winds of the table, otherwise on the
 /// mission's plant alone. Takes some 0.2 ms of one core per entry. The result does not depend on
 /// the number of threads.
-/// @throws as MonteCarloJudge.
+/// @throws as MonteCarloEvaluator.
 WhatIfTable what_if(const Mission& mission, const MatchingStudy& study,
                     const WhatIfOptions& options);
 

@@ -40,8 +40,8 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& matrix,
   std::vector<bool> free(static_cast<std::size_t>(size), false);
   const double tolerance =
       1e-12 * (1.0 + right_hand_side.norm()) * (1.0 + matrix.cwiseAbs().maxCoeff());
-  const Index most_steps = 10 * size + 10;
-  for (Index step = 0; step < most_steps; ++step) {
+  const Index max_steps = 10 * size + 10;
+  for (Index step = 0; step < max_steps; ++step) {
     const Eigen::VectorXd pull = matrix.transpose() * (right_hand_side - matrix * x);
     Index enters = -1;
     for (Index k = 0; k < size; ++k) {
@@ -60,20 +60,20 @@ Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& matrix,
       }
       if (columns.empty()) break;
       const Eigen::VectorXd wanted = on_columns(matrix, right_hand_side, columns);
-      double share = 1.0;
+      double fraction = 1.0;
       for (std::size_t i = 0; i < columns.size(); ++i) {
         const double now = x[columns[i]], then = wanted[static_cast<Index>(i)];
-        if (then <= 0.0) share = std::min(share, now / std::max(now - then, 1e-300));
+        if (then <= 0.0) fraction = std::min(fraction, now / std::max(now - then, 1e-300));
       }
       for (std::size_t i = 0; i < columns.size(); ++i) {
         double& now = x[columns[i]];
-        now += share * (wanted[static_cast<Index>(i)] - now);
-        if (share < 1.0 && now <= 1e-14) {
+        now += fraction * (wanted[static_cast<Index>(i)] - now);
+        if (fraction < 1.0 && now <= 1e-14) {
           now = 0.0;
           free[static_cast<std::size_t>(columns[i])] = false;
         }
       }
-      if (share == 1.0) break;
+      if (fraction == 1.0) break;
     }
   }
   return x;

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/design/tuning/design_study.hpp>
-#include <boresight/design/tuning/judged_plant.hpp>
+#include <boresight/design/tuning/plant_evaluator.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
@@ -27,7 +27,7 @@ TrackingProblem without_band_limits(TrackingProblem problem) {
 }
 
 std::array<control::Margins, 3> margins_of(TrackingProblem problem,
-                                           const control::ControlLaw& law) {
+                                           const control::Controller& controller) {
   problem.points_per_decade = 100;
   const Eigen::ArrayXd grid = analysis_grid(problem);
   const plant::PointResponse response(problem.plant);
@@ -35,7 +35,8 @@ std::array<control::Margins, 3> margins_of(TrackingProblem problem,
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     margins[b] = control::margins(
         [&](double w) {
-          return control::loop_gain(response(w), w, law, problem.delay, control::loop_breaks[b]);
+          return control::loop_gain(response(w), w, controller, problem.delay,
+                                    control::loop_breaks[b]);
         },
         grid);
   }
@@ -45,9 +46,9 @@ std::array<control::Margins, 3> margins_of(TrackingProblem problem,
 constexpr double met = 1.0 + 1e-6;
 
 // Margins from every crossover, bandwidth from |S| along the grid: the first goal missed.
-std::string missed_margin(const TrackingProblem& problem, const control::ControlLaw& law,
-                          const HardGoals& goals) {
-  const auto margins = margins_of(problem, law);
+std::string missed_margin(const TrackingProblem& problem, const control::Controller& controller,
+                          const Constraints& goals) {
+  const auto margins = margins_of(problem, controller);
   for (std::size_t b = 0; b < margins.size(); ++b) {
     const std::string_view cut = control::to_string(control::loop_breaks[b]);
     const double gain =
@@ -65,8 +66,8 @@ std::string missed_margin(const TrackingProblem& problem, const control::Control
   const plant::PointResponse response(problem.plant);
   for (const double w : analysis_grid(problem)) {
     if (w * met > goals.bandwidth.value_or(0.0)) break;
-    const auto loop =
-        control::loop_gain(response(w), w, law, problem.delay, control::LoopBreak::position_loop);
+    const auto loop = control::loop_gain(response(w), w, controller, problem.delay,
+                                         control::LoopBreak::position_loop);
     if (std::norm(1.0 + loop) < 2.0) {
       return fmt::format(
           "bandwidth: |S| of the position loop above 0.707 at {:.6f} rad/s, below "
@@ -77,10 +78,10 @@ std::string missed_margin(const TrackingProblem& problem, const control::Control
   return {};
 }
 
-std::string missed_gusts(const TrackingProblem& problem, const control::ControlLaw& law,
-                         const HardGoals& goals) {
-  JudgedPlant plant("", problem, goals, WindTable(problem));
-  for (const GoalRatio& goal : plant.judge(law, false).ratios) {
+std::string missed_gusts(const TrackingProblem& problem, const control::Controller& controller,
+                         const Constraints& goals) {
+  PlantEvaluator plant("", problem, goals, WindTable(problem));
+  for (const NormalisedConstraint& goal : plant.evaluate(controller, false).ratios) {
     const bool gusts = goal.kind == GoalKind::gust_demand || goal.kind == GoalKind::gust_torque;
     if (gusts && goal.ratio > met) {
       return fmt::format("{}: {:.6f} times its limit", describe(goal), goal.ratio);
@@ -91,21 +92,21 @@ std::string missed_gusts(const TrackingProblem& problem, const control::ControlL
 
 }  // namespace
 
-Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
-                    const HardGoals& goals) {
+Verification verify(const TrackingProblem& problem, const control::Controller& controller,
+                    const Constraints& goals) {
   Verification verification;
   const TrackingProblem whole = without_band_limits(problem);
   control::LoopEvaluator evaluator = make_evaluator(whole);
-  verification.spectral_rms = std::sqrt(evaluator.evaluate(law, false).beam_variance());
+  verification.spectral_rms = std::sqrt(evaluator.evaluate(controller, false).boresight_variance());
   try {
-    verification.stability =
-        control::stability(problem.plant, law, problem.delay, evaluator.response().frequency);
-    verification.peaks = control::sensitivity_bounds(problem.plant, law, problem.delay);
+    verification.stability = control::stability(problem.plant, controller, problem.delay,
+                                                evaluator.response().frequency);
+    verification.peaks = control::sensitivity_bounds(problem.plant, controller, problem.delay);
     if (!verification.stability.stable()) {
       verification.failure = "the closed loop is not stable";
       return verification;
     }
-    verification.lyapunov = control::lyapunov_rms(problem.plant, law, problem.delay,
+    verification.lyapunov = control::lyapunov_rms(problem.plant, controller, problem.delay,
                                                   fit_wind_filter(problem), whole.noise);
   } catch (const NumericalFailure& error) {
     verification.failure = error.what();
@@ -115,22 +116,23 @@ Verification verify(const TrackingProblem& problem, const control::ControlLaw& l
       std::abs(verification.lyapunov.total / verification.spectral_rms - 1.0);
   for (std::size_t b = 0; b < verification.peaks.size(); ++b) {
     if (!(verification.peaks[b].upper <= goals.sensitivity_peak[b] * (1.0 + 1e-6))) {
-      verification.failure = fmt::format("peak of S at {}: {:.6f} above {:g}",
-                                         control::to_string(control::loop_breaks[b]),
-                                         verification.peaks[b].upper, goals.sensitivity_peak[b]);
+      verification.failure =
+          fmt::format("Ms at {}: {:.6f} above {:g}", control::to_string(control::loop_breaks[b]),
+                      verification.peaks[b].upper, goals.sensitivity_peak[b]);
     }
   }
-  const double effort = std::sqrt(make_evaluator(problem).evaluate(law, false).effort_variance);
-  if (effort > goals.valve_effort * (1.0 + 1e-5)) {
-    verification.failure = fmt::format("noise-driven valve effort {:.6f} rad/s above {:g}", effort,
-                                       goals.valve_effort);
+  const double effort =
+      std::sqrt(make_evaluator(problem).evaluate(controller, false).effort_variance);
+  if (effort > goals.control_effort * (1.0 + 1e-5)) {
+    verification.failure = fmt::format("noise-driven control effort {:.6f} rad/s above {:g}",
+                                       effort, goals.control_effort);
   }
   if (goals.ask_for_margins()) {
-    const std::string missed = missed_margin(problem, law, goals);
+    const std::string missed = missed_margin(problem, controller, goals);
     if (!missed.empty()) verification.failure = missed;
   }
   if (goals.ask_for_gusts()) {
-    const std::string missed = missed_gusts(problem, law, goals);
+    const std::string missed = missed_gusts(problem, controller, goals);
     if (!missed.empty()) verification.failure = missed;
   }
   if (!(verification.rms_disagreement < 0.005)) {
@@ -151,17 +153,17 @@ Design finish(const DesignTask& task, TuningResult tuning) {
   design.hydraulic_mode = plant::hydraulic_mode(plant::plant_modes(problem.plant));
   design.reflected_inertia = plant::reflected_inertia(problem.plant);
   if (design.tuning.status == TuningStatus::unstable) {
-    design.beam_rms = design.wind_rms = design.noise_rms = design.valve_effort =
+    design.boresight_rms = design.wind_rms = design.noise_rms = design.control_effort =
         std::numeric_limits<double>::quiet_NaN();
     return design;
   }
-  design.verification = verify(problem, design.tuning.law, task.goals);
+  design.verification = verify(problem, design.tuning.controller, task.goals);
   const auto& evaluation = design.tuning.evaluation;
-  design.beam_rms = std::sqrt(evaluation.beam_variance()) / problem.gear_ratio;
+  design.boresight_rms = std::sqrt(evaluation.boresight_variance()) / problem.gear_ratio;
   design.wind_rms = std::sqrt(evaluation.wind_variance) / problem.gear_ratio;
   design.noise_rms = std::sqrt(evaluation.noise_variance) / problem.gear_ratio;
-  design.valve_effort = std::sqrt(evaluation.effort_variance);
-  design.margins = margins_of(problem, design.tuning.law);
+  design.control_effort = std::sqrt(evaluation.effort_variance);
+  design.margins = margins_of(problem, design.tuning.controller);
   return design;
 }
 
@@ -171,19 +173,19 @@ Design solve(const DesignTask& task) {
   return finish(task, tune(task.problem, task.structure, task.goals, task.options));
 }
 
-Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
-              const HardGoals& goals) {
+Design assess(const TrackingProblem& problem, const control::Controller& controller,
+              const Constraints& goals) {
   TuningResult given;
-  given.law = law;
+  given.controller = controller;
   control::LoopEvaluator evaluator = make_evaluator(problem);
-  given.evaluation = evaluator.evaluate(law, false);
-  given.worst_goal_ratio = worst_goal_ratio(given.evaluation, goals);
-  if (!control::stability(problem.plant, law, problem.delay, evaluator.response().frequency)
+  given.evaluation = evaluator.evaluate(controller, false);
+  given.worst_constraint = worst_constraint(given.evaluation, goals);
+  if (!control::stability(problem.plant, controller, problem.delay, evaluator.response().frequency)
            .stable()) {
     given.status = TuningStatus::unstable;
-    given.worst_goal_ratio = std::numeric_limits<double>::infinity();
+    given.worst_constraint = std::numeric_limits<double>::infinity();
   }
-  Design design = finish({{}, problem, law.structure, goals, {}}, std::move(given));
+  Design design = finish({{}, problem, controller.structure, goals, {}}, std::move(given));
   if (design.verification.passed) design.tuning.status = TuningStatus::optimal;
   return design;
 }
@@ -218,7 +220,7 @@ void improve_along(const std::vector<DesignTask>& tasks, std::vector<Design>& de
   const auto improve = [&](std::size_t i, std::size_t neighbour) {
     const TuningResult& other = designs[neighbour].tuning;
     if (other.status == TuningStatus::optimal) {
-      improve_from(tasks[i], {other.law.gains}, designs[i]);
+      improve_from(tasks[i], {other.controller.gains}, designs[i]);
     }
   };
   for (std::size_t i = 1; i < tasks.size(); ++i) improve(i, i - 1);

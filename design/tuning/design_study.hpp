@@ -31,15 +31,15 @@ struct Verification {
   std::string failure;
 };
 
-Verification verify(const TrackingProblem& problem, const control::ControlLaw& law,
-                    const HardGoals& goals);
+Verification verify(const TrackingProblem& problem, const control::Controller& controller,
+                    const Constraints& goals);
 
 /// One tuning task.
 struct DesignTask {
   std::string name;
   TrackingProblem problem;
   control::LoopStructure structure;
-  HardGoals goals;
+  Constraints goals;
   TuningOptions options;
 };
 
@@ -52,10 +52,10 @@ struct Design {
   Verification verification;
   plant::PlantMode hydraulic_mode;
   double reflected_inertia = 0.0;  // kg m2
-  double beam_rms = 0.0;
+  double boresight_rms = 0.0;
   double wind_rms = 0.0;
   double noise_rms = 0.0;
-  double valve_effort = 0.0;  // rad/s
+  double control_effort = 0.0;  // rad/s
   /// Stability margins with the loop cut at each of control::loop_breaks.
   std::array<control::Margins, 3> margins;
 
@@ -69,8 +69,8 @@ Design solve(const DesignTask& task);
 /// Verifies given gains as verify() does for a tuned controller. `tuning.status` is optimal if the
 /// verification passes, infeasible if it fails, and unstable if the loop is unstable.
 /// @throws InvalidInput as control::validate.
-Design assess(const TrackingProblem& problem, const control::ControlLaw& law,
-              const HardGoals& goals);
+Design assess(const TrackingProblem& problem, const control::Controller& controller,
+              const Constraints& goals);
 
 /// Tunes a task again from given gains. Replaces the design if the result is verified and better:
 /// feasible where the design was not, or with an objective rms lower by more than a relative 1e-4.

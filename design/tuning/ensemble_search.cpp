@@ -27,10 +27,11 @@ FeasibleSearchOptions search_options(const TuningOptions& options) {
   return settings;
 }
 
-EnsembleSearch::EnsembleSearch(std::vector<JudgedPlant>& plants, control::LoopStructure structure,
-                               const HardGoals& goals, const TuningOptions& options)
+EnsembleSearch::EnsembleSearch(std::vector<PlantEvaluator>& plants,
+                               control::LoopStructure structure, const Constraints& goals,
+                               const TuningOptions& options)
     : plants_(plants), structure_(std::move(structure)), goals_(goals), options_(options) {
-  if (plants.size() == 1 || options.soft_goal.kind == SoftGoalKind::nominal) {
+  if (plants.size() == 1 || options.objective.kind == ObjectiveKind::nominal) {
     ensemble_ = {0};
   } else {
     ensemble_.resize(plants.size() - 1);
@@ -39,81 +40,82 @@ EnsembleSearch::EnsembleSearch(std::vector<JudgedPlant>& plants, control::LoopSt
 }
 
 std::size_t EnsembleSearch::quantile_place() const {
-  const double share =
-      options_.soft_goal.kind == SoftGoalKind::quantile ? options_.soft_goal.quantile : 1.0;
-  const double place = std::ceil(share * static_cast<double>(ensemble_.size()) - 1e-9);
+  const double fraction =
+      options_.objective.kind == ObjectiveKind::quantile ? options_.objective.quantile : 1.0;
+  const double place = std::ceil(fraction * static_cast<double>(ensemble_.size()) - 1e-9);
   return static_cast<std::size_t>(std::max(place, 1.0)) - 1;
 }
 
 std::vector<std::size_t> EnsembleSearch::by_rising_rms() const {
   std::vector<std::size_t> order = ensemble_;
   std::ranges::stable_sort(order, {}, [&](std::size_t i) {
-    return standings_[i].stable ? standings_[i].rms : infinity;
+    return member_states_[i].stable ? member_states_[i].rms : infinity;
   });
   return order;
 }
 
-HeldLaw EnsembleSearch::judge(const std::vector<double>& point) {
-  const control::ControlLaw law = law_at(structure_, point);
-  HeldLaw held{point, 0.0, 0.0};
-  standings_.resize(plants_.size());
+FixedController EnsembleSearch::evaluate(const std::vector<double>& point) {
+  const control::Controller controller = controller_at(structure_, point);
+  FixedController held{point, 0.0, 0.0};
+  member_states_.resize(plants_.size());
   for (std::size_t i = 0; i < plants_.size(); ++i) {
-    const PlantJudgement& judgement = plants_[i].judge(law, false);
+    const PlantEvaluation& plant_evaluation = plants_[i].evaluate(controller, false);
     ++evaluations_;
-    standings_[i] = {judgement.stable, std::sqrt(judgement.evaluation.beam_variance()),
-                     judgement.worst_ratio(), judgement.ratios};
-    held.worst_ratio = std::max(held.worst_ratio, standings_[i].worst_ratio);
+    member_states_[i] = {plant_evaluation.stable,
+                         std::sqrt(plant_evaluation.evaluation.boresight_variance()),
+                         plant_evaluation.worst_ratio(), plant_evaluation.ratios};
+    held.worst_ratio = std::max(held.worst_ratio, member_states_[i].worst_ratio);
   }
   if (!std::isfinite(held.worst_ratio)) {
     held.soft_rms = infinity;
     return held;
   }
-  if (options_.soft_goal.kind == SoftGoalKind::expected) {
-    for (const std::size_t i : ensemble_) held.soft_rms += std::pow(standings_[i].rms, 2);
+  if (options_.objective.kind == ObjectiveKind::expected) {
+    for (const std::size_t i : ensemble_) held.soft_rms += std::pow(member_states_[i].rms, 2);
     held.soft_rms = std::sqrt(held.soft_rms / static_cast<double>(ensemble_.size()));
   } else {
-    held.soft_rms = standings_[by_rising_rms()[quantile_place()]].rms;
+    held.soft_rms = member_states_[by_rising_rms()[quantile_place()]].rms;
   }
   return held;
 }
 
-bool EnsembleSearch::better(const HeldLaw& one, const HeldLaw& other) const {
+bool EnsembleSearch::better(const FixedController& one, const FixedController& other) const {
   const bool first = one.worst_ratio <= 1.0 + rounding;
   const bool second = other.worst_ratio <= 1.0 + rounding;
   if (first != second) return first;
   return first ? one.soft_rms < other.soft_rms : one.worst_ratio < other.worst_ratio;
 }
 
-CarriedPlants EnsembleSearch::carried_plants(const std::vector<std::size_t>& carried) const {
-  CarriedPlants set;
-  set.goals = carried;
-  const SoftGoalKind kind = options_.soft_goal.kind;
-  set.largest = kind == SoftGoalKind::worst_case || kind == SoftGoalKind::quantile;
-  for (const std::size_t i : carried) {
+ActiveScenarios EnsembleSearch::active_scenarios(const std::vector<std::size_t>& active) const {
+  ActiveScenarios set;
+  set.goals = active;
+  const ObjectiveKind kind = options_.objective.kind;
+  set.largest = kind == ObjectiveKind::worst_case || kind == ObjectiveKind::quantile;
+  for (const std::size_t i : active) {
     if (contains(ensemble_, i) && !contains(left_out_, i)) set.rms.push_back(i);
   }
   if (set.rms.empty()) set.rms = {ensemble_.front()};
   return set;
 }
 
-CarriedPlants EnsembleSearch::search_set() const {
-  CarriedPlants set = carried_plants(carried_);
-  if (options_.soft_goal.kind == SoftGoalKind::expected) set.rms = ensemble_;
+ActiveScenarios EnsembleSearch::search_set() const {
+  ActiveScenarios set = active_scenarios(active_);
+  if (options_.objective.kind == ObjectiveKind::expected) set.rms = ensemble_;
   return set;
 }
 
 // Adds to the carried plants; whether there was anything to add.
 bool EnsembleSearch::carry_more(bool feasible) {
   const auto carry = [&](std::size_t i) {
-    if (contains(carried_, i)) return false;
-    carried_.push_back(i);
+    if (contains(active_, i)) return false;
+    active_.push_back(i);
     return true;
   };
   bool more = false;
   // Unstable members: two at a time, they tend to be neighbours.
   int unstable = 0;
   for (std::size_t i = 0; i < plants_.size() && unstable < 2; ++i) {
-    if (!standings_[i].stable && carry(i)) {
+    if (!member_states_[i].stable && carry(i)) {
       more = true;
       ++unstable;
     }
@@ -122,9 +124,9 @@ bool EnsembleSearch::carry_more(bool feasible) {
   // above the worst of those inside.
   double threshold = 1.0 + rounding;
   if (!feasible) {
-    for (const std::size_t i : carried_) {
-      if (std::isfinite(standings_[i].worst_ratio)) {
-        threshold = std::max(threshold, standings_[i].worst_ratio * (1.0 + above));
+    for (const std::size_t i : active_) {
+      if (std::isfinite(member_states_[i].worst_ratio)) {
+        threshold = std::max(threshold, member_states_[i].worst_ratio * (1.0 + above));
       }
     }
   }
@@ -134,7 +136,7 @@ bool EnsembleSearch::carry_more(bool feasible) {
   };
   std::array<std::array<Worst, control::loop_breaks.size() + 1>, 7> worst{};
   for (std::size_t i = 0; i < plants_.size(); ++i) {
-    for (const GoalRatio& goal : standings_[i].ratios) {
+    for (const NormalisedConstraint& goal : member_states_[i].ratios) {
       const std::size_t cut = goal.loop_break ? 1 + static_cast<std::size_t>(*goal.loop_break) : 0;
       Worst& one = worst.at(static_cast<std::size_t>(goal.kind)).at(cut);
       if (goal.ratio > one.ratio) one = {i, goal.ratio};
@@ -145,8 +147,8 @@ bool EnsembleSearch::carry_more(bool feasible) {
       if (one.ratio > threshold && carry(one.plant)) more = true;
     }
   }
-  const SoftGoalKind soft = options_.soft_goal.kind;
-  if ((soft != SoftGoalKind::worst_case && soft != SoftGoalKind::quantile) || unstable > 0) {
+  const ObjectiveKind soft = options_.objective.kind;
+  if ((soft != ObjectiveKind::worst_case && soft != ObjectiveKind::quantile) || unstable > 0) {
     return more;
   }
   const auto order = by_rising_rms();
@@ -163,40 +165,41 @@ bool EnsembleSearch::carry_more(bool feasible) {
 }
 
 std::vector<std::size_t> EnsembleSearch::near_goals(const std::vector<double>& point,
-                                                    std::size_t most) {
+                                                    std::size_t maximum) {
   constexpr double near = 0.97;
-  judge(point);
+  evaluate(point);
   std::vector<std::size_t> order;
   for (std::size_t i = 1; i < plants_.size(); ++i) {
-    if (standings_[i].worst_ratio > near) order.push_back(i);
+    if (member_states_[i].worst_ratio > near) order.push_back(i);
   }
   std::ranges::stable_sort(order, std::ranges::greater(),
-                           [&](std::size_t i) { return standings_[i].worst_ratio; });
-  order.resize(std::min(order.size(), most));
+                           [&](std::size_t i) { return member_states_[i].worst_ratio; });
+  order.resize(std::min(order.size(), maximum));
   order.insert(order.begin(), 0);
   return order;
 }
 
-std::optional<HeldLaw> EnsembleSearch::hold(const std::vector<double>& point,
-                                            const std::vector<std::size_t>& carried) {
-  carried_ = carried;
+std::optional<FixedController> EnsembleSearch::hold(const std::vector<double>& point,
+                                                    const std::vector<std::size_t>& active) {
+  active_ = active;
   std::vector<double> here = point;
-  std::optional<HeldLaw> best;
-  constexpr int most_rounds = 15;
-  for (int round = 0; round < most_rounds; ++round) {
-    FeasibleSearch search(law_problem(plants_, search_set(), structure_, goals_, goal_reserve),
-                          search_options(options_));
+  std::optional<FixedController> best;
+  constexpr int max_rounds = 15;
+  for (int round = 0; round < max_rounds; ++round) {
+    FeasibleSearch search(
+        controller_problem(plants_, search_set(), structure_, goals_, goal_reserve),
+        search_options(options_));
     // A member just taken in may be unstable here: back to where all are stable.
     if (search.evaluate(here) == nullptr) {
       std::mt19937_64 generator(options_.seed);
       std::vector<double> anchor;
-      constexpr int most_trials = 2000;
-      for (int i = 0; i < most_trials && anchor.empty() && !stopped_; ++i) {
+      constexpr int max_trials = 2000;
+      for (int i = 0; i < max_trials && anchor.empty() && !stopped_; ++i) {
         const auto trial = search.random_point(generator);
         if (search.evaluate(trial) != nullptr) anchor = trial;
         stopped_ = stopped_ || (options_.stop && options_.stop());
       }
-      if (!anchor.empty()) here = search.retreat(here, anchor);
+      if (!anchor.empty()) here = search.backtrack(here, anchor);
     }
     auto found = search.search_from(here);
     const bool feasible = found.has_value();
@@ -206,7 +209,7 @@ std::optional<HeldLaw> EnsembleSearch::hold(const std::vector<double>& point,
     stopped_ = stopped_ || search.stopped();
     if (!found) break;
     here = found->point;
-    HeldLaw held = judge(here);
+    FixedController held = evaluate(here);
     if (!best || better(held, *best)) best = held;
     if (plants_.size() == 1 || stopped_ || !carry_more(feasible)) break;
   }
@@ -214,27 +217,28 @@ std::optional<HeldLaw> EnsembleSearch::hold(const std::vector<double>& point,
 }
 
 bool EnsembleSearch::stable_by_eigenvalues(const std::vector<double>& point) const {
-  const control::ControlLaw law = law_at(structure_, point);
-  return std::ranges::all_of(
-      plants_, [&](const JudgedPlant& plant) { return plant.stable_by_eigenvalues(law); });
+  const control::Controller controller = controller_at(structure_, point);
+  return std::ranges::all_of(plants_, [&](const PlantEvaluator& plant) {
+    return plant.stable_by_eigenvalues(controller);
+  });
 }
 
-Eigen::MatrixXd EnsembleSearch::soft_gradients(const control::ControlLaw& law) const {
-  const auto size = static_cast<Eigen::Index>(law.gains.size());
+Eigen::MatrixXd EnsembleSearch::soft_gradients(const control::Controller& controller) const {
+  const auto size = static_cast<Eigen::Index>(controller.gains.size());
   const auto count = static_cast<Eigen::Index>(ensemble_.size());
   Eigen::MatrixXd gradients(count, size);
   Eigen::ArrayXd variances(count);
   for (Eigen::Index i = 0; i < count; ++i) {
     const auto& evaluation =
-        plants_[ensemble_[static_cast<std::size_t>(i)]].judge(law, true).evaluation;
-    variances[i] = evaluation.beam_variance();
+        plants_[ensemble_[static_cast<std::size_t>(i)]].evaluate(controller, true).evaluation;
+    variances[i] = evaluation.boresight_variance();
     for (Eigen::Index k = 0; k < size; ++k) {
       const auto place = static_cast<std::size_t>(k);
       gradients(i, k) =
           0.5 * (evaluation.wind_log_gradient[place] + evaluation.noise_log_gradient[place]);
     }
   }
-  if (options_.soft_goal.kind == SoftGoalKind::expected) {
+  if (options_.objective.kind == ObjectiveKind::expected) {
     return gradients.colwise().sum() / variances.sum();
   }
   std::vector<double> sorted(variances.begin(), variances.end());
@@ -250,9 +254,9 @@ Eigen::MatrixXd EnsembleSearch::soft_gradients(const control::ControlLaw& law) c
   return gradients.topRows(rows);
 }
 
-std::vector<std::string> EnsembleSearch::carried_names() const {
+std::vector<std::string> EnsembleSearch::active_names() const {
   std::vector<std::string> names;
-  for (const std::size_t i : carried_) {
+  for (const std::size_t i : active_) {
     if (i > 0) names.push_back(plants_[i].name());
   }
   return names;

@@ -38,13 +38,13 @@ void check(const ConstrainedProblem& problem, const FeasibleSearchOptions& optio
   if (problem.objectives == 0 || !problem.evaluate) {
     throw InvalidInput("FeasibleSearch: expected at least one objective and a callback");
   }
-  if (options.evaluations_per_run < 1 || options.retreat_steps < 1 ||
-      options.most_evaluations < 1 || options.most_restarts < 0) {
+  if (options.evaluations_per_run < 1 || options.backtrack_steps < 1 ||
+      options.max_evaluations < 1 || options.max_restarts < 0) {
     throw InvalidInput(
         fmt::format("FeasibleSearch: expected at least 1 evaluation a run and in all, 1 retreat "
                     "step and 0 restarts, found {}, {}, {}, {}",
-                    options.evaluations_per_run, options.most_evaluations, options.retreat_steps,
-                    options.most_restarts));
+                    options.evaluations_per_run, options.max_evaluations, options.backtrack_steps,
+                    options.max_restarts));
   }
   if (!(options.variable_tolerance >= 0.0) || !(options.cost_tolerance >= 0.0) ||
       !(options.worthwhile_gain >= 0.0) || !(options.reserve >= 0.0) ||
@@ -120,23 +120,23 @@ std::vector<double> FeasibleSearch::random_point(std::mt19937_64& generator) con
   std::vector<double> point(problem_.lower.size());
   for (std::size_t k = 0; k < point.size(); ++k) {
     // 53 random bits, so that the sequence does not depend on the standard library.
-    const double share = static_cast<double>(generator() >> 11) * 0x1p-53;
-    point[k] = problem_.lower[k] + share * (problem_.upper[k] - problem_.lower[k]);
+    const double fraction = static_cast<double>(generator() >> 11) * 0x1p-53;
+    point[k] = problem_.lower[k] + fraction * (problem_.upper[k] - problem_.lower[k]);
   }
   return point;
 }
 
-std::vector<double> FeasibleSearch::retreat(const std::vector<double>& from,
-                                            const std::vector<double>& towards) {
+std::vector<double> FeasibleSearch::backtrack(const std::vector<double>& from,
+                                              const std::vector<double>& towards) {
   if (from.size() != towards.size()) {
     throw InvalidInput(
         fmt::format("FeasibleSearch: expected two points of one size, found {} and {}", from.size(),
                     towards.size()));
   }
   std::vector<double> point = from;
-  for (int step = 0; step < options_.retreat_steps; ++step) {
+  for (int step = 0; step < options_.backtrack_steps; ++step) {
     for (std::size_t k = 0; k < point.size(); ++k) {
-      point[k] = from[k] + (towards[k] - from[k]) * step / options_.retreat_steps;
+      point[k] = from[k] + (towards[k] - from[k]) * step / options_.backtrack_steps;
     }
     if (evaluate(point) != nullptr) return point;
   }
@@ -184,7 +184,7 @@ struct FeasibleSearch::Run {
     }
     const bool known = point == search.point_;
     if (!known && ((search.options_.stop && search.options_.stop()) ||
-                   search.evaluations_ >= search.options_.most_evaluations)) {
+                   search.evaluations_ >= search.options_.max_evaluations)) {
       search.stopped_ = true;
       throw nlopt::forced_stop();
     }
@@ -302,7 +302,7 @@ std::optional<SearchPoint> FeasibleSearch::search_from(const std::vector<double>
   std::vector<double> point = start;
   // SLSQP stops where two branches change places; from there it often goes on with the new pair.
   double cost = std::numeric_limits<double>::infinity();
-  for (int again = 0; again <= options_.most_restarts && !stopped_; ++again) {
+  for (int again = 0; again <= options_.max_restarts && !stopped_; ++again) {
     run(Aim::cost, point, false);
     if (!start_best_ && start_nearest_ && !stopped_) {
       run(Aim::constraints, start_nearest_->point, true);
@@ -320,7 +320,7 @@ std::optional<SearchPoint> FeasibleSearch::approach_from(const std::vector<doubl
   begin(start);
   std::vector<double> point = start;
   double violation = std::numeric_limits<double>::infinity();
-  for (int again = 0; again <= options_.most_restarts && !stopped_; ++again) {
+  for (int again = 0; again <= options_.max_restarts && !stopped_; ++again) {
     run(Aim::constraints, point, false);
     if (!start_nearest_ || start_nearest_->violation >= violation - options_.worthwhile_gain) break;
     violation = start_nearest_->violation;

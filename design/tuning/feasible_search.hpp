@@ -36,11 +36,11 @@ struct ConstrainedProblem {
 
 struct FeasibleSearchOptions {
   /// Largest number of evaluations of one optimiser run. A start takes at most
-  /// 2 (most_restarts + 2) runs.
+  /// 2 (max_restarts + 2) runs.
   int evaluations_per_run = 150;
   /// Largest number of restarts of a run from its end point. A run is restarted only if the last
   /// run lowered the cost by more than `worthwhile_gain`.
-  int most_restarts = 4;
+  int max_restarts = 4;
   double worthwhile_gain = 1e-3;
   /// A run ends when the variables change by less than `variable_tolerance` (relative) or the cost
   /// by less than `cost_tolerance`.
@@ -53,9 +53,9 @@ struct FeasibleSearchOptions {
   /// off.
   double undefined_penalty = 5.0;
   /// Largest number of steps from an undefined start to a defined point.
-  int retreat_steps = 12;
+  int backtrack_steps = 12;
   /// Largest number of evaluations of all starts together.
-  long most_evaluations = std::numeric_limits<long>::max();
+  long max_evaluations = std::numeric_limits<long>::max();
   /// Polled before every evaluation. True ends the search; results so far are kept.
   std::function<bool()> stop;
 };
@@ -87,7 +87,8 @@ class FeasibleSearch {
   /// The first defined point on the straight line from `from` to `towards`; returns `towards` if
   /// none is defined before it.
   /// @throws InvalidInput for points of different sizes.
-  std::vector<double> retreat(const std::vector<double>& from, const std::vector<double>& towards);
+  std::vector<double> backtrack(const std::vector<double>& from,
+                                const std::vector<double>& towards);
 
   /// Searches from a start. Returns the best feasible point found from there, if any. If a start
   /// yields no feasible point, the search first minimises the largest constraint and then continues

@@ -11,7 +11,7 @@ namespace {
 using control::LoopEvaluation;
 
 constexpr std::size_t breaks = control::loop_breaks.size();
-constexpr std::size_t most_peaks = control::PeakList::most;
+constexpr std::size_t max_peaks = control::PeakList::maximum;
 // ln of a peak or an effort over its limit is kept below minus this, so that what is recorded
 // meets the goals by other code too.
 constexpr double reserve = 1e-4;
@@ -20,29 +20,29 @@ constexpr double reserve = 1e-4;
 // response itself: rms and effort are its.
 ConstrainedProblem search_problem(std::vector<MeasuredMember>& members,
                                   const control::LoopStructure& structure,
-                                  const MeasuredGoals& goals) {
+                                  const MeasuredConstraints& goals) {
   ConstrainedProblem search;
   for (const auto& gain : control::gain_descriptions(structure)) {
     search.lower.push_back(std::log(gain.lower));
     search.upper.push_back(std::log(gain.upper));
   }
-  search.constraints = 1 + members.size() * breaks * most_peaks;
+  search.constraints = 1 + members.size() * breaks * max_peaks;
   search.evaluate = [&members, structure, goals](const std::vector<double>& point,
                                                  ConstrainedValues& values) {
-    control::ControlLaw law{structure, point};
+    control::Controller controller{structure, point};
     const std::size_t size = point.size();
-    for (double& gain : law.gains) gain = std::exp(gain);
+    for (double& gain : controller.gains) gain = std::exp(gain);
     std::ranges::fill(values.constraints, -1.0);
     std::ranges::fill(values.constraint_gradients, 0.0);
     for (std::size_t m = 0; m < members.size(); ++m) {
-      const LoopEvaluation evaluation = members[m].evaluator.evaluate(law, true);
+      const LoopEvaluation evaluation = members[m].evaluator.evaluate(controller, true);
       if (!evaluation.stable()) return false;
       if (m == 0) {
-        const double variance = evaluation.beam_variance();
+        const double variance = evaluation.boresight_variance();
         values.objectives[0] = 0.5 * std::log(variance);
         const double effort = evaluation.effort_variance;
         if (effort > 0.0) {
-          values.constraints[0] = 0.5 * std::log(effort) - std::log(goals.valve_effort) + reserve;
+          values.constraints[0] = 0.5 * std::log(effort) - std::log(goals.control_effort) + reserve;
         }
         for (std::size_t k = 0; k < size; ++k) {
           values.objective_gradients[k] =
@@ -56,7 +56,7 @@ ConstrainedProblem search_problem(std::vector<MeasuredMember>& members,
         if (!members[m].looked_at[b]) continue;
         const auto& peaks = evaluation.peaks[b];
         for (std::size_t j = 0; j < peaks.size(); ++j) {
-          const std::size_t row = 1 + (m * breaks + b) * most_peaks + j;
+          const std::size_t row = 1 + (m * breaks + b) * max_peaks + j;
           values.constraints[row] =
               std::log(peaks[j].magnitude / goals.sensitivity_peak[b]) + reserve;
           for (std::size_t k = 0; k < size; ++k) {
@@ -89,7 +89,8 @@ control::LoopEvaluator measured_evaluator(const MeasuredProblem& problem,
 }
 
 MeasuredSearch::MeasuredSearch(const MeasuredProblem& problem,
-                               const control::LoopStructure& structure, const MeasuredGoals& goals,
+                               const control::LoopStructure& structure,
+                               const MeasuredConstraints& goals,
                                const MeasuredTuningOptions& options)
     : problem_(problem), structure_(structure), goals_(goals), options_(options) {
   search_options_.evaluations_per_run = options.evaluations_per_run;
@@ -108,7 +109,7 @@ std::vector<SearchPoint> MeasuredSearch::from_everywhere(MeasuredTuningResult& r
   }
   std::vector<SearchPoint> found;
   for (int start = 0; start < options_.starts && !anchor.empty() && !search.stopped(); ++start) {
-    const auto from = search.retreat(search.random_point(generator), anchor);
+    const auto from = search.backtrack(search.random_point(generator), anchor);
     if (auto best = search.search_from(from)) found.push_back(std::move(*best));
     ++result.starts;
   }
@@ -118,9 +119,9 @@ std::vector<SearchPoint> MeasuredSearch::from_everywhere(MeasuredTuningResult& r
       found, [&](const auto& one) { return one.cost < found.front().cost + std::log(1.01); }));
   std::vector<SearchPoint> distinct;
   for (const auto& one : found) {
-    constexpr std::size_t most = 3;
+    constexpr std::size_t maximum = 3;
     const bool copy = !distinct.empty() && one.cost < distinct.back().cost + 1e-4;
-    if (!copy && distinct.size() < most) distinct.push_back(one);
+    if (!copy && distinct.size() < maximum) distinct.push_back(one);
   }
   if (const auto& nearest = search.nearest(); distinct.empty() && nearest) {
     distinct.push_back(*nearest);
@@ -133,7 +134,7 @@ std::optional<SearchPoint> MeasuredSearch::refine(std::vector<MeasuredMember>& m
                                                   MeasuredTuningResult& result) {
   FeasibleSearch search(search_problem(members, structure_, goals_), search_options_);
   // A start that is unstable with one of the members is pulled back to the first.
-  for (const auto& start : starts) search.search_from(search.retreat(start, starts.front()));
+  for (const auto& start : starts) search.search_from(search.backtrack(start, starts.front()));
   count(search, result);
   return search.best() ? search.best() : search.nearest();
 }
@@ -143,11 +144,12 @@ MeasuredMember MeasuredSearch::measured(const Eigen::ArrayXd& grid) const {
           {true, true, true}};
 }
 
-MeasuredMember MeasuredSearch::least_favourable(const control::ControlLaw& law, std::size_t b,
-                                                double radius, const Eigen::ArrayXd& grid) const {
+MeasuredMember MeasuredSearch::least_favourable(const control::Controller& controller,
+                                                std::size_t b, double radius,
+                                                const Eigen::ArrayXd& grid) const {
   MeasuredMember member{
       measured_evaluator(problem_,
-                         control::least_favourable(problem_.channels, law, problem_.delay,
+                         control::least_favourable(problem_.channels, controller, problem_.delay,
                                                    control::loop_breaks[b], radius, grid),
                          problem_.rms_band),
       {}};
@@ -156,10 +158,10 @@ MeasuredMember MeasuredSearch::least_favourable(const control::ControlLaw& law, 
   return member;
 }
 
-control::ControlLaw MeasuredSearch::law_of(const SearchPoint& point) const {
-  control::ControlLaw law{structure_, point.point};
-  for (double& gain : law.gains) gain = std::exp(gain);
-  return law;
+control::Controller MeasuredSearch::controller_of(const SearchPoint& point) const {
+  control::Controller controller{structure_, point.point};
+  for (double& gain : controller.gains) gain = std::exp(gain);
+  return controller;
 }
 
 }  // namespace boresight::design

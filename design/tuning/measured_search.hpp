@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/design/tuning/feasible_search.hpp>
 #include <boresight/design/tuning/measured_tuning.hpp>
@@ -28,7 +28,7 @@ control::LoopEvaluator measured_evaluator(const MeasuredProblem& problem,
 class MeasuredSearch {
  public:
   MeasuredSearch(const MeasuredProblem& problem, const control::LoopStructure& structure,
-                 const MeasuredGoals& goals, const MeasuredTuningOptions& options);
+                 const MeasuredConstraints& goals, const MeasuredTuningOptions& options);
 
   /// Distinct optima of random starts on a coarse grid, best first. If none meets the constraints,
   /// returns the point nearest to meeting them. Empty if no stable controller was found.
@@ -45,14 +45,14 @@ class MeasuredSearch {
   MeasuredMember measured(const Eigen::ArrayXd& grid) const;
   /// The worst response for the controller at break `b`, within `radius` of the confidence of the
   /// measured response. It is constrained at that break only.
-  MeasuredMember least_favourable(const control::ControlLaw& law, std::size_t b, double radius,
-                                  const Eigen::ArrayXd& grid) const;
-  control::ControlLaw law_of(const SearchPoint& point) const;
+  MeasuredMember least_favourable(const control::Controller& controller, std::size_t b,
+                                  double radius, const Eigen::ArrayXd& grid) const;
+  control::Controller controller_of(const SearchPoint& point) const;
 
  private:
   const MeasuredProblem& problem_;
   const control::LoopStructure& structure_;
-  const MeasuredGoals& goals_;
+  const MeasuredConstraints& goals_;
   const MeasuredTuningOptions& options_;
   FeasibleSearchOptions search_options_;
 };

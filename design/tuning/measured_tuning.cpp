@@ -30,7 +30,7 @@ std::vector<double> logarithms(const std::vector<double>& gains) {
   return result;
 }
 
-void check(const MeasuredProblem& problem, const MeasuredGoals& goals,
+void check(const MeasuredProblem& problem, const MeasuredConstraints& goals,
            const MeasuredTuningOptions& options) {
   if (options.starts < 1 || options.evaluations_per_run < 1 ||
       options.search_points_per_decade < 1 || options.rounds < 1 || problem.points_per_decade < 1) {
@@ -40,25 +40,26 @@ void check(const MeasuredProblem& problem, const MeasuredGoals& goals,
         options.starts, options.evaluations_per_run, options.search_points_per_decade,
         problem.points_per_decade, options.rounds));
   }
-  if (!(std::ranges::min(goals.sensitivity_peak) > 1.0) || !(goals.valve_effort > 0.0)) {
-    throw InvalidInput(fmt::format(
-        "tune on a measured response: expected sensitivity peaks above 1 and a valve effort above "
-        "0, found {}, {}, {} and {}",
-        goals.sensitivity_peak[0], goals.sensitivity_peak[1], goals.sensitivity_peak[2],
-        goals.valve_effort));
+  if (!(std::ranges::min(goals.sensitivity_peak) > 1.0) || !(goals.control_effort > 0.0)) {
+    throw InvalidInput(
+        fmt::format("tune on a measured response: expected sensitivity peaks above 1 and a control "
+                    "effort above "
+                    "0, found {}, {}, {} and {}",
+                    goals.sensitivity_peak[0], goals.sensitivity_peak[1], goals.sensitivity_peak[2],
+                    goals.control_effort));
   }
 }
 
 // Adds least favourable responses of the last law to the measured one, searches again, and so on
 // until the law stays where it is. result.law: in, the best for the measured response; out, the
 // best that holds within the confidence, if any does.
-void make_confident(const MeasuredProblem& problem, const MeasuredGoals& goals,
+void make_confident(const MeasuredProblem& problem, const MeasuredConstraints& goals,
                     const MeasuredTuningOptions& options, MeasuredSearch& tuning,
                     std::vector<MeasuredMember>& members, MeasuredTuningResult& result) {
   constexpr double settled = 1e-3;  // change of every ln(gain), gain in rms
   const Eigen::ArrayXd grid = members.front().evaluator.response().frequency;
-  const std::vector<double> nominal = logarithms(result.law.gains);
-  control::ControlLaw law = result.law;
+  const std::vector<double> nominal = logarithms(result.controller.gains);
+  control::Controller controller = result.controller;
   std::vector<double> before = nominal;
   double largest_error = result.verification.largest_error;
   double best = std::numeric_limits<double>::infinity();
@@ -70,25 +71,25 @@ void make_confident(const MeasuredProblem& problem, const MeasuredGoals& goals,
     const double step = first_step + step_growth * round;
     const double radius = result.radius * std::min(1.0, step / std::max(largest_error, step));
     for (std::size_t b = 0; b < breaks; ++b) {
-      members.push_back(tuning.least_favourable(law, b, radius, grid));
+      members.push_back(tuning.least_favourable(controller, b, radius, grid));
     }
     // From the law itself the optimiser may stall where peaks change places.
-    const auto here = logarithms(law.gains);
+    const auto here = logarithms(controller.gains);
     std::vector<std::vector<double>> starts{here, nominal};
     if (before != nominal) starts.push_back(before);
     const auto point = tuning.refine(members, starts, result);
     ++result.rounds;
     if (!point) return;
     before = here;
-    law = tuning.law_of(*point);
-    const MeasuredVerification verification = verify(problem, law, goals, result.radius);
+    controller = tuning.controller_of(*point);
+    const MeasuredVerification verification = verify(problem, controller, goals, result.radius);
     largest_error = verification.largest_error;
     const double rms = std::exp(point->cost);
     const bool holds = verification.passed && point->violation <= 0.0;
     const bool no_better = holds && rms > best * (1.0 - settled);
     if (holds && rms < best) {
       best = rms;
-      result.law = law;
+      result.controller = controller;
       result.verification = verification;
       result.status = MeasuredTuningStatus::confident;
     }
@@ -101,34 +102,34 @@ void make_confident(const MeasuredProblem& problem, const MeasuredGoals& goals,
 }
 
 // Shares by evaluating the law on the measured band alone and on what lies below and above it.
-void find_shares(const MeasuredProblem& problem, MeasuredTuningResult& result) {
+void find_fractions(const MeasuredProblem& problem, MeasuredTuningResult& result) {
   const Eigen::ArrayXd grid = measured_grid(problem, problem.points_per_decade, true);
   const double lowest = problem.channels.lowest_frequency() / two_pi;
   const double highest = problem.channels.highest_frequency() / two_pi;
   const control::LoopChannels channels = problem.channels.on(grid);
   const LoopEvaluation& all = result.evaluation;
-  const auto share = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
-  const auto add = [&](control::FrequencyBand band, double AssumedShare::*where) {
+  const auto fraction = [](double part, double whole) { return whole > 0.0 ? part / whole : 0.0; };
+  const auto add = [&](control::FrequencyBand band, double AssumedFraction::*where) {
     if (!(band.highest > band.lowest)) return;
     auto evaluator = measured_evaluator(problem, channels, band);
-    const LoopEvaluation part = evaluator.evaluate(result.law, false);
-    result.wind_share.*where += share(part.wind_variance, all.wind_variance);
-    result.noise_share.*where += share(part.noise_variance, all.noise_variance);
-    result.effort_share.*where += share(part.effort_variance, all.effort_variance);
+    const LoopEvaluation part = evaluator.evaluate(result.controller, false);
+    result.wind_fraction.*where += fraction(part.wind_variance, all.wind_variance);
+    result.noise_fraction.*where += fraction(part.noise_variance, all.noise_variance);
+    result.effort_fraction.*where += fraction(part.effort_variance, all.effort_variance);
   };
   const auto& rms = problem.rms_band;
-  add({rms.lowest, std::min(lowest, rms.highest)}, &AssumedShare::below);
-  add({std::max(highest, rms.lowest), rms.highest}, &AssumedShare::above);
+  add({rms.lowest, std::min(lowest, rms.highest)}, &AssumedFraction::below);
+  add({std::max(highest, rms.lowest), rms.highest}, &AssumedFraction::above);
   const auto add_all = [&](const std::vector<control::PointBand>& bands,
-                           double AssumedShare::*where) {
+                           double AssumedFraction::*where) {
     for (const auto& band : bands) {
       add({std::max(band.lowest / two_pi, rms.lowest),
            std::min(band.highest / two_pi, rms.highest)},
           where);
     }
   };
-  add_all(problem.channels.unresolved(), &AssumedShare::unresolved);
-  add_all(problem.channels.encoder_assumed(), &AssumedShare::encoder);
+  add_all(problem.channels.unresolved(), &AssumedFraction::unresolved);
+  add_all(problem.channels.encoder_assumed(), &AssumedFraction::encoder);
 }
 
 // Central differences over the oil spring, gains held.
@@ -140,26 +141,26 @@ void find_oil_sensitivity(const MeasuredProblem& problem, MeasuredTuningResult& 
     const auto channels = problem.channels.with_oil(
         {oil.stiffness * std::exp(stiffness), oil.loss_rate * std::exp(loss)});
     auto evaluator = measured_evaluator(problem, channels.on(grid), problem.rms_band);
-    return 0.5 * std::log(evaluator.evaluate(result.law, false).beam_variance());
+    return 0.5 * std::log(evaluator.evaluate(result.controller, false).boresight_variance());
   };
   result.by_stiffness = (log_rms(step, 0.0) - log_rms(-step, 0.0)) / (2.0 * step);
   result.by_loss_rate = (log_rms(0.0, step) - log_rms(0.0, -step)) / (2.0 * step);
 }
 
-void describe(const MeasuredGoals& goals, MeasuredTuningResult& result) {
+void describe(const MeasuredConstraints& goals, MeasuredTuningResult& result) {
   for (std::size_t b = 0; b < breaks; ++b) {
     const auto& peak = result.verification.peaks[b].within_confidence;
     if (peak.magnitude < 0.995 * goals.sensitivity_peak[b]) continue;
-    result.active_goals.push_back(fmt::format("sensitivity peak at {}, {:.2f} Hz",
-                                              control::to_string(control::loop_breaks[b]),
-                                              peak.frequency / two_pi));
+    result.active_constraints.push_back(fmt::format("sensitivity peak at {}, {:.2f} Hz",
+                                                    control::to_string(control::loop_breaks[b]),
+                                                    peak.frequency / two_pi));
   }
-  if (result.valve_effort > 0.999 * goals.valve_effort) {
-    result.active_goals.emplace_back("noise-driven valve effort");
+  if (result.control_effort > 0.999 * goals.control_effort) {
+    result.active_constraints.emplace_back("noise-driven control effort");
   }
-  const auto& descriptions = control::gain_descriptions(result.law.structure);
+  const auto& descriptions = control::gain_descriptions(result.controller.structure);
   for (std::size_t k = 0; k < descriptions.size(); ++k) {
-    const double value = result.law.gains[k];
+    const double value = result.controller.gains[k];
     if (value < 1.001 * descriptions[k].lower || value > 0.999 * descriptions[k].upper) {
       result.gains_at_bound.push_back(descriptions[k].name);
     }
@@ -177,7 +178,7 @@ std::string_view to_string(MeasuredTuningStatus status) {
     case MeasuredTuningStatus::infeasible:
       return "goals not met";
     case MeasuredTuningStatus::unstable:
-      return "no stable law found";
+      return "no stable controller found";
   }
   throw InvalidInput("to_string: not a status");
 }
@@ -215,10 +216,10 @@ control::LoopEvaluator make_evaluator(const MeasuredProblem& problem) {
 }
 
 MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStructure& structure,
-                          const MeasuredGoals& goals, const MeasuredTuningOptions& options) {
+                          const MeasuredConstraints& goals, const MeasuredTuningOptions& options) {
   check(problem, goals, options);
   MeasuredTuningResult result;
-  result.law.structure = structure;
+  result.controller.structure = structure;
   result.confidence = problem.channels.has_covariance() ? options.confidence : 0.0;
   result.radius =
       control::confidence_radius(result.confidence, problem.channels.degrees_of_freedom());
@@ -233,10 +234,10 @@ MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStr
   auto point = tuning.refine(members, starts, result);
   if (!point) return result;
   const bool feasible = point->violation <= 0.0;
-  const control::ControlLaw law = tuning.law_of(*point);
+  const control::Controller controller = tuning.controller_of(*point);
   result.nominal_rms = std::exp(point->cost);
-  result.law = law;
-  result.verification = verify(problem, law, goals, result.radius);
+  result.controller = controller;
+  result.verification = verify(problem, controller, goals, result.radius);
   result.status = feasible ? MeasuredTuningStatus::nominal : MeasuredTuningStatus::infeasible;
   if (feasible && result.verification.passed) {
     result.status = MeasuredTuningStatus::confident;
@@ -244,12 +245,12 @@ MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStr
     make_confident(problem, goals, options, tuning, members, result);
   }
 
-  result.evaluation = members.front().evaluator.evaluate(result.law, true);
-  result.rms = std::sqrt(result.evaluation.beam_variance());
+  result.evaluation = members.front().evaluator.evaluate(result.controller, true);
+  result.rms = std::sqrt(result.evaluation.boresight_variance());
   result.wind_rms = std::sqrt(result.evaluation.wind_variance);
   result.noise_rms = std::sqrt(result.evaluation.noise_variance);
-  result.valve_effort = std::sqrt(result.evaluation.effort_variance);
-  find_shares(problem, result);
+  result.control_effort = std::sqrt(result.evaluation.effort_variance);
+  find_fractions(problem, result);
   find_oil_sensitivity(problem, result);
   describe(goals, result);
   return result;

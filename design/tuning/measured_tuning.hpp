@@ -26,10 +26,10 @@ struct MeasuredProblem {
 };
 
 /// Constraints, for the measured response and for every response within its confidence region.
-struct MeasuredGoals {
+struct MeasuredConstraints {
   /// Largest |S| allowed (Ms) at each break, in the order of control::loop_breaks.
   std::array<double, 3> sensitivity_peak{2.0, 2.0, 2.0};
-  double valve_effort = 0.6;  // rad/s rms of noise-driven valve command
+  double control_effort = 0.6;  // rad/s rms of noise-driven valve command
 };
 
 struct MeasuredTuningOptions {
@@ -64,7 +64,7 @@ struct MeasuredPeak {
 };
 
 /// Fractions of a variance that come from frequencies where the response is not measured.
-struct AssumedShare {
+struct AssumedFraction {
   double below = 0.0;       // below the lowest usable point
   double encoder = 0.0;     // tachometer and torque measured, encoder angle assumed
   double unresolved = 0.0;  // between usable points that do not resolve it
@@ -96,14 +96,14 @@ struct MeasuredVerification {
 
 struct MeasuredTuningResult {
   MeasuredTuningStatus status = MeasuredTuningStatus::unstable;
-  control::ControlLaw law;
+  control::Controller controller;
   control::LoopEvaluation evaluation;  // on the measured response
   MeasuredVerification verification;
   double rms = 0.0;  // rad of motor, at encoder (or boresight with predicted flexure)
   double wind_rms = 0.0;
   double noise_rms = 0.0;
-  double valve_effort = 0.0;  // rad/s
-  AssumedShare wind_share, noise_share, effort_share;
+  double control_effort = 0.0;  // rad/s
+  AssumedFraction wind_fraction, noise_fraction, effort_fraction;
   /// d ln rms / d ln of the oil spring's stiffness and of its loss rate, gains fixed. They give the
   /// sensitivity of the rms to parameters that the test does not measure.
   double by_stiffness = 0.0;
@@ -113,7 +113,7 @@ struct MeasuredTuningResult {
   /// Rms (rad of motor) of the best controller for the measured response alone. The difference from
   /// `rms` is the cost of the confidence.
   double nominal_rms = 0.0;
-  std::vector<std::string> active_goals;
+  std::vector<std::string> active_constraints;
   std::vector<std::string> gains_at_bound;
   int starts = 0;
   int starts_at_optimum = 0;  // rms within 1 % of the best on the search's grid
@@ -140,10 +140,11 @@ control::LoopEvaluator make_evaluator(const MeasuredProblem& problem);
 /// @throws InvalidInput for options below 1, limits that are not above 1 (effort: above 0), or a
 /// confidence outside 0 to 1.
 MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStructure& structure,
-                          const MeasuredGoals& goals, const MeasuredTuningOptions& options = {});
+                          const MeasuredConstraints& goals,
+                          const MeasuredTuningOptions& options = {});
 
 /// Checks a controller on the measured points. `radius` as returned by control::confidence_radius.
-MeasuredVerification verify(const MeasuredProblem& problem, const control::ControlLaw& law,
-                            const MeasuredGoals& goals, double radius);
+MeasuredVerification verify(const MeasuredProblem& problem, const control::Controller& controller,
+                            const MeasuredConstraints& goals, double radius);
 
 }  // namespace boresight::design

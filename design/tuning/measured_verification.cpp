@@ -20,15 +20,15 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // Interpolating L and interpolating the responses that make it up differ between points.
 constexpr double interpolation = 2e-3;
 
-struct Winding {
+struct EncirclementCount {
   int unstable = 0;
   double gain_at_highest = 0.0;
 };
 
 // Zeros of 1 + L in the right half plane; L starts as c/s^integrators with c > 0.
-Winding winding(const MeasuredProblem& problem, const control::ControlLaw& law,
-                LoopBreak loop_break, int integrators,
-                std::vector<control::PointBand>& open_steps) {
+EncirclementCount encirclements(const MeasuredProblem& problem,
+                                const control::Controller& controller, LoopBreak loop_break,
+                                int integrators, std::vector<control::PointBand>& open_steps) {
   const auto& channels = problem.channels;
   std::vector<double> frequency;
   constexpr double step = 1.02;
@@ -40,10 +40,11 @@ Winding winding(const MeasuredProblem& problem, const control::ControlLaw& law,
   const double start = -0.5 * pi * integrators;
   double angle = 0.0;
   Complex last = 0.0;
-  Winding result;
+  EncirclementCount result;
   for (std::size_t i = 0; i < frequency.size(); ++i) {
     const double w = frequency[i];
-    const Complex gain = control::loop_gain(channels.at(w), w, law, problem.delay, loop_break);
+    const Complex gain =
+        control::loop_gain(channels.at(w), w, controller, problem.delay, loop_break);
     const Complex value = 1.0 + gain;
     if (i == 0) {
       angle = start + std::remainder(std::arg(value) - start, 2.0 * pi);
@@ -62,24 +63,26 @@ Winding winding(const MeasuredProblem& problem, const control::ControlLaw& law,
   return result;
 }
 
-control::MeasuredLoop measured_loop(const MeasuredProblem& problem, const control::ControlLaw& law,
-                                    LoopBreak loop_break) {
+control::MeasuredLoop measured_loop(const MeasuredProblem& problem,
+                                    const control::Controller& controller, LoopBreak loop_break) {
   control::MeasuredLoop loop;
   loop.frequency = problem.channels.frequency();
   loop.gain.resize(loop.frequency.size());
   for (Index i = 0; i < loop.frequency.size(); ++i) {
     const double w = loop.frequency[i];
-    loop.gain[i] = control::loop_gain(problem.channels.at(w), w, law, problem.delay, loop_break);
+    loop.gain[i] =
+        control::loop_gain(problem.channels.at(w), w, controller, problem.delay, loop_break);
   }
   return loop;
 }
 
-void find_peak(const MeasuredProblem& problem, const control::ControlLaw& law, LoopBreak loop_break,
-               double radius, const Eigen::ArrayXd& grid, MeasuredPeak& peak,
+void find_peak(const MeasuredProblem& problem, const control::Controller& controller,
+               LoopBreak loop_break, double radius, const Eigen::ArrayXd& grid, MeasuredPeak& peak,
                double& largest_error) {
   const auto& channels = problem.channels;
   for (const double w : grid) {
-    const auto loop = control::measured_loop_point(channels, law, problem.delay, loop_break, w);
+    const auto loop =
+        control::measured_loop_point(channels, controller, problem.delay, loop_break, w);
     const double measured = 1.0 / std::abs(1.0 + loop.loop_gain);
     if (measured > peak.measured.magnitude) peak.measured = {w, measured};
     double largest = measured;
@@ -91,7 +94,8 @@ void find_peak(const MeasuredProblem& problem, const control::ControlLaw& law, L
       const double length = radius / loop.relative_error;
       const auto worst =
           channels.changed(w, channels.covariance(w) * loop.log_sensitivity.adjoint() * length);
-      largest = 1.0 / std::abs(1.0 + control::loop_gain(worst, w, law, problem.delay, loop_break));
+      largest =
+          1.0 / std::abs(1.0 + control::loop_gain(worst, w, controller, problem.delay, loop_break));
     }
     if (largest > peak.within_confidence.magnitude) {
       peak.within_confidence = {w, largest};
@@ -100,24 +104,25 @@ void find_peak(const MeasuredProblem& problem, const control::ControlLaw& law, L
   }
 }
 
-int integrators_of(const control::ControlLaw& law, control::LoopPath path) {
+int integrators_of(const control::Controller& controller, control::LoopPath path) {
   return static_cast<int>(
-      std::ranges::count_if(law.structure.blocks(), [path](const control::LoopBlock& block) {
+      std::ranges::count_if(controller.structure.blocks(), [path](const control::LoopBlock& block) {
         return block.path == path && block.kind == control::BlockKind::integral;
       }));
 }
 
 }  // namespace
 
-MeasuredVerification verify(const MeasuredProblem& problem, const control::ControlLaw& law,
-                            const MeasuredGoals& goals, double radius) {
-  control::validate(law);
+MeasuredVerification verify(const MeasuredProblem& problem, const control::Controller& controller,
+                            const MeasuredConstraints& goals, double radius) {
+  control::validate(controller);
   MeasuredVerification result;
-  const int rate = integrators_of(law, control::LoopPath::rate);
-  const int position = integrators_of(law, control::LoopPath::position);
-  const Winding open = winding(problem, law, LoopBreak::rate_loop_alone, rate, result.open_steps);
-  const Winding closed =
-      winding(problem, law, LoopBreak::valve_command, rate + position + 1, result.open_steps);
+  const int rate = integrators_of(controller, control::LoopPath::rate);
+  const int position = integrators_of(controller, control::LoopPath::position);
+  const EncirclementCount open =
+      encirclements(problem, controller, LoopBreak::rate_loop_alone, rate, result.open_steps);
+  const EncirclementCount closed = encirclements(problem, controller, LoopBreak::valve_command,
+                                                 rate + position + 1, result.open_steps);
   result.unstable = {open.unstable, closed.unstable};
   result.gain_at_highest = {open.gain_at_highest, closed.gain_at_highest};
 
@@ -131,8 +136,8 @@ MeasuredVerification verify(const MeasuredProblem& problem, const control::Contr
   grid[grid.size() - 1] = points[points.size() - 1];
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const LoopBreak loop_break = control::loop_breaks[b];
-    result.margins[b] = control::margins(measured_loop(problem, law, loop_break));
-    find_peak(problem, law, loop_break, radius, grid, result.peaks[b], result.largest_error);
+    result.margins[b] = control::margins(measured_loop(problem, controller, loop_break));
+    find_peak(problem, controller, loop_break, radius, grid, result.peaks[b], result.largest_error);
   }
 
   if (open.unstable != 0 || closed.unstable != 0) {
@@ -148,7 +153,7 @@ MeasuredVerification verify(const MeasuredProblem& problem, const control::Contr
   } else if (!result.open_steps.empty()) {
     result.failure = fmt::format(
         "1 + L turns by more than 90 degrees from {:.4g} to {:.4g} Hz: the points are "
-        "too far apart there to count its winding",
+        "too far apart there to count its encirclements",
         result.open_steps.front().lowest / (2.0 * pi),
         result.open_steps.front().highest / (2.0 * pi));
   } else if (!(result.largest_error < 1.0)) {

@@ -11,7 +11,7 @@ namespace boresight::design {
 namespace {
 
 using control::BlockKind;
-using control::ControlLaw;
+using control::Controller;
 using control::GainDescription;
 using control::LoopBlock;
 using control::LoopPath;
@@ -129,32 +129,34 @@ std::size_t steps_of_search(const std::vector<std::vector<std::size_t>>& parts) 
   return parts.size() + static_cast<std::size_t>(with_parts);
 }
 
-std::vector<double> transferred_gains(const ControlLaw& law, const LoopStructure& structure) {
+std::vector<double> transferred_gains(const Controller& controller,
+                                      const LoopStructure& structure) {
   std::vector<double> gains;
   for (const LoopBlock& block : structure.blocks()) {
     for (std::size_t k = 0; k < block.gains.size(); ++k) {
       const GainDescription& gain = block.gains[k];
-      const bool shared = find(law.structure, gain.symbol) != nullptr;
-      gains.push_back(shared ? std::clamp(control::gain(law, gain.symbol), gain.lower, gain.upper)
-                             : neutral_gain(block, k));
+      const bool shared = find(controller.structure, gain.symbol) != nullptr;
+      gains.push_back(
+          shared ? std::clamp(control::gain(controller, gain.symbol), gain.lower, gain.upper)
+                 : neutral_gain(block, k));
     }
   }
   return gains;
 }
 
-std::vector<std::vector<double>> starts_from_part(const ControlLaw& law,
+std::vector<std::vector<double>> starts_from_part(const Controller& controller,
                                                   const LoopStructure& structure,
                                                   std::uint64_t seed, int random) {
-  std::vector<std::vector<double>> starts{transferred_gains(law, structure)};
+  std::vector<std::vector<double>> starts{transferred_gains(controller, structure)};
   std::mt19937_64 generator(seed);
   for (int i = 0; i < random; ++i) {
     std::vector<double> gains = starts.front();
     for (std::size_t k = 0; k < gains.size(); ++k) {
       const GainDescription& gain = structure.gains()[k];
-      if (find(law.structure, gain.symbol) != nullptr) continue;
+      if (find(controller.structure, gain.symbol) != nullptr) continue;
       // 53 random bits, so that the sequence does not depend on the standard library.
-      const double share = static_cast<double>(generator() >> 11U) * 0x1p-53;
-      gains[k] = gain.lower * std::pow(gain.upper / gain.lower, share);
+      const double fraction = static_cast<double>(generator() >> 11U) * 0x1p-53;
+      gains[k] = gain.lower * std::pow(gain.upper / gain.lower, fraction);
     }
     starts.push_back(std::move(gains));
   }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <vector>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 
 namespace boresight::design {
 
@@ -39,7 +39,7 @@ std::size_t steps_of_search(const std::vector<std::vector<std::size_t>>& parts);
 /// Converts the gains of one structure's controller to a start for another structure. Gains of the
 /// same symbol are kept. Others are set to have the least effect: lag and lead corners far up,
 /// notches flat, added paths with their smallest gain.
-std::vector<double> transferred_gains(const control::ControlLaw& law,
+std::vector<double> transferred_gains(const control::Controller& controller,
                                       const control::LoopStructure& structure);
 
 /// Number of random starts for a structure that is tuned only to provide starts for others.
@@ -48,7 +48,7 @@ inline constexpr int starts_of_a_part = 6;
 /// Starts for a structure from a controller of a structure that it extends: transferred_gains, then
 /// `random` more with the added gains log-uniform within their bounds. A search from the neutral
 /// setting alone may find only the nearest of several optima. Deterministic by seed.
-std::vector<std::vector<double>> starts_from_part(const control::ControlLaw& law,
+std::vector<std::vector<double>> starts_from_part(const control::Controller& controller,
                                                   const control::LoopStructure& structure,
                                                   std::uint64_t seed, int random = 5);
 

@@ -17,15 +17,15 @@ namespace {
 // A goal met to the last digit is met.
 constexpr double rounding = 1e-9;
 
-void check(const control::LoopStructure& structure, const HardGoals& goals,
+void check(const control::LoopStructure& structure, const Constraints& goals,
            const TuningOptions& options) {
-  const int least_starts = options.warm_starts.empty() ? 1 : 0;
-  if (options.starts < least_starts || options.evaluations_per_start < 1) {
+  const int min_starts = options.warm_starts.empty() ? 1 : 0;
+  if (options.starts < min_starts || options.evaluations_per_start < 1) {
     throw InvalidInput(
         fmt::format("tune: expected at least {} starts and 1 evaluation a start, found {} and {}",
-                    least_starts, options.starts, options.evaluations_per_start));
+                    min_starts, options.starts, options.evaluations_per_start));
   }
-  const double quantile = options.soft_goal.quantile;
+  const double quantile = options.objective.quantile;
   if (!std::isfinite(quantile) || quantile <= 0.0 || quantile > 1.0) {
     throw InvalidInput(
         fmt::format("tune: expected a quantile above 0 and at most 1, found {:g}", quantile));
@@ -36,10 +36,10 @@ void check(const control::LoopStructure& structure, const HardGoals& goals,
   validate(goals);
 }
 
-std::vector<JudgedPlant> make_plants(TrackingProblem problem, const HardGoals& goals,
-                                     const std::vector<EnsembleMember>& members) {
+std::vector<PlantEvaluator> make_plants(TrackingProblem problem, const Constraints& goals,
+                                        const std::vector<EnsembleMember>& members) {
   const WindTable wind(problem);
-  std::vector<JudgedPlant> plants;
+  std::vector<PlantEvaluator> plants;
   plants.reserve(1 + members.size());
   plants.emplace_back("", problem, goals, wind);
   for (const auto& member : members) {
@@ -56,19 +56,19 @@ struct Started {
 
 // All starts on some of the plants. Each start has a record of its own, so that threads make no
 // difference.
-Started multi_start(const std::vector<JudgedPlant>& plants, const CarriedPlants& carried,
-                    const control::LoopStructure& structure, const HardGoals& goals,
+Started multi_start(const std::vector<PlantEvaluator>& plants, const ActiveScenarios& active,
+                    const control::LoopStructure& structure, const Constraints& goals,
                     const TuningOptions& options, TuningResult& result) {
   const FeasibleSearchOptions settings = search_options(options);
-  std::vector<JudgedPlant> own = plants;
-  FeasibleSearch trial(law_problem(own, carried, structure, goals, goal_reserve), settings);
+  std::vector<PlantEvaluator> own = plants;
+  FeasibleSearch trial(controller_problem(own, active, structure, goals, goal_reserve), settings);
   std::mt19937_64 generator(options.seed);
   // Stable points that unstable starts are pulled back to: several, or all would end in the valleys
   // around one.
   std::vector<std::vector<double>> anchors;
   constexpr std::size_t enough_anchors = 10;
-  constexpr int most_trials = 2000;
-  for (int i = 0; i < most_trials && anchors.size() < enough_anchors; ++i) {
+  constexpr int max_trials = 2000;
+  for (int i = 0; i < max_trials && anchors.size() < enough_anchors; ++i) {
     if (options.stop && options.stop()) break;
     auto point = trial.random_point(generator);
     if (trial.evaluate(point) != nullptr) anchors.push_back(std::move(point));
@@ -87,15 +87,17 @@ Started multi_start(const std::vector<JudgedPlant>& plants, const CarriedPlants&
   const std::size_t threads =
       std::clamp<std::size_t>(options.threads, 1, std::max<std::size_t>(starts.size(), 1));
   numerics::for_each_index(threads, static_cast<unsigned>(threads), [&](std::size_t thread) {
-    std::vector<JudgedPlant> mine = plants;
+    std::vector<PlantEvaluator> mine = plants;
     for (std::size_t i = thread; i < starts.size(); i += threads) {
       // Even when stopped the first start is looked at: something stands.
       if (i > 0 && options.stop && options.stop()) {
         outcomes[i].stopped = true;
         break;
       }
-      FeasibleSearch search(law_problem(mine, carried, structure, goals, goal_reserve), settings);
-      outcomes[i].best = search.search_from(search.retreat(starts[i], anchors[i % anchors.size()]));
+      FeasibleSearch search(controller_problem(mine, active, structure, goals, goal_reserve),
+                            settings);
+      outcomes[i].best =
+          search.search_from(search.backtrack(starts[i], anchors[i % anchors.size()]));
       outcomes[i].nearest = search.nearest();
       outcomes[i].evaluations = static_cast<int>(search.evaluations());
       outcomes[i].failures = search.optimiser_failures();
@@ -131,16 +133,17 @@ std::vector<std::vector<double>> distinct(const std::vector<SearchPoint>& sorted
 }
 
 std::vector<std::vector<double>> promising(const Started& started) {
-  constexpr std::size_t most = 3;
-  if (!started.feasible.empty()) return distinct(started.feasible, &SearchPoint::cost, most);
+  constexpr std::size_t maximum = 3;
+  if (!started.feasible.empty()) return distinct(started.feasible, &SearchPoint::cost, maximum);
   return distinct(started.nearest, &SearchPoint::violation, 2);
 }
 
 // Random starts on the problem's own plant; with members, again with those that have to be carried.
-std::vector<std::vector<double>> global_search(std::vector<JudgedPlant>& plants,
+std::vector<std::vector<double>> global_search(std::vector<PlantEvaluator>& plants,
                                                const control::LoopStructure& structure,
-                                               const HardGoals& goals, const TuningOptions& options,
-                                               std::vector<std::size_t>& carried,
+                                               const Constraints& goals,
+                                               const TuningOptions& options,
+                                               std::vector<std::size_t>& active,
                                                TuningResult& result) {
   Started started = multi_start(plants, {{0}, {0}, false}, structure, goals, options, result);
   auto points = promising(started);
@@ -148,8 +151,8 @@ std::vector<std::vector<double>> global_search(std::vector<JudgedPlant>& plants,
     EnsembleSearch ensemble(plants, structure, goals, options);
     const auto held = ensemble.hold(points.front(), {0});
     result.evaluations += ensemble.evaluations();
-    carried = ensemble.carried();
-    const CarriedPlants many = ensemble.carried_plants(carried);
+    active = ensemble.active();
+    const ActiveScenarios many = ensemble.active_scenarios(active);
     Started again = multi_start(plants, many, structure, goals, options, result);
     if (!again.feasible.empty() || started.feasible.empty()) started = std::move(again);
     points = promising(started);
@@ -164,41 +167,41 @@ std::vector<std::vector<double>> global_search(std::vector<JudgedPlant>& plants,
 }
 
 // Prices of what holds the law, by the multipliers of the goals that are active on any plant.
-void describe_limits(std::vector<JudgedPlant>& plants, const EnsembleSearch& ensemble,
+void describe_limits(std::vector<PlantEvaluator>& plants, const EnsembleSearch& ensemble,
                      TuningResult& result) {
-  const auto& descriptions = control::gain_descriptions(result.law.structure);
+  const auto& descriptions = control::gain_descriptions(result.controller.structure);
   const auto size = static_cast<Eigen::Index>(descriptions.size());
   const bool feasible = result.status == TuningStatus::optimal;
-  std::vector<LimitingGoal> active;
+  std::vector<ActiveConstraint> binding;
   for (auto& plant : plants) {
-    for (const GoalRatio& goal : plant.judge(result.law, true).ratios) {
+    for (const NormalisedConstraint& goal : plant.evaluate(result.controller, true).ratios) {
       if (goal.ratio > 0.999) {
-        result.active_goals.push_back(
+        result.active_constraints.push_back(
             describe(goal) + (plant.name().empty() ? "" : fmt::format(", on {}", plant.name())));
       }
-      const double threshold = feasible ? 1.0 : result.worst_goal_ratio;
-      if (goal.ratio > threshold * (1.0 - 1e-4)) active.push_back({goal, plant.name(), 0.0});
+      const double threshold = feasible ? 1.0 : result.worst_constraint;
+      if (goal.ratio > threshold * (1.0 - 1e-4)) binding.push_back({goal, plant.name(), 0.0});
     }
   }
   // Nothing to price where the winding and the eigenvalues differ on a member.
-  if (!feasible && active.empty()) return;
-  const auto row = [&](const std::array<double, control::most_gains>& gradient) {
+  if (!feasible && binding.empty()) return;
+  const auto row = [&](const std::array<double, control::max_gains>& gradient) {
     return Eigen::Map<const Eigen::RowVectorXd>(gradient.data(), size);
   };
   ActiveSet set;
-  const auto goals = static_cast<Eigen::Index>(active.size());
+  const auto goals = static_cast<Eigen::Index>(binding.size());
   Eigen::MatrixXd gradients(goals, size);
   for (Eigen::Index i = 0; i < goals; ++i) {
-    gradients.row(i) = row(active[static_cast<std::size_t>(i)].goal.log_gradient);
+    gradients.row(i) = row(binding[static_cast<std::size_t>(i)].goal.log_gradient);
   }
   set.constraints.resize(0, size);
   set.objectives = std::move(gradients);
   if (feasible) {
     set.constraints = std::move(set.objectives);
-    set.objectives = ensemble.soft_gradients(result.law);
+    set.objectives = ensemble.soft_gradients(result.controller);
   }
   for (std::size_t k = 0; k < descriptions.size(); ++k) {
-    const double value = result.law.gains[k];
+    const double value = result.controller.gains[k];
     set.at_lower.push_back(value < 1.001 * descriptions[k].lower);
     set.at_upper.push_back(value > 0.999 * descriptions[k].upper);
     if (set.at_lower.back() || set.at_upper.back()) {
@@ -207,19 +210,19 @@ void describe_limits(std::vector<JudgedPlant>& plants, const EnsembleSearch& ens
   }
   const Multipliers found = active_multipliers(set);
   result.gradient_residual = found.residual;
-  const Eigen::VectorXd& prices = feasible ? found.constraints : found.objectives;
+  const Eigen::VectorXd& shadow_prices = feasible ? found.constraints : found.objectives;
   constexpr double worth_saying = 1e-4;
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    active[i].price = prices[static_cast<Eigen::Index>(i)];
-    if (active[i].price > worth_saying) result.limits.push_back(std::move(active[i]));
+  for (std::size_t i = 0; i < binding.size(); ++i) {
+    binding[i].shadow_price = shadow_prices[static_cast<Eigen::Index>(i)];
+    if (binding[i].shadow_price > worth_saying) result.limits.push_back(std::move(binding[i]));
   }
-  std::ranges::stable_sort(result.limits, std::ranges::greater(), &LimitingGoal::price);
+  std::ranges::stable_sort(result.limits, std::ranges::greater(), &ActiveConstraint::shadow_price);
   for (std::size_t k = 0; k < descriptions.size(); ++k) {
     const auto place = static_cast<Eigen::Index>(k);
     for (const bool upper : {false, true}) {
-      const double price = upper ? found.upper[place] : found.lower[place];
-      if (price > worth_saying) {
-        result.limiting_bounds.push_back({descriptions[k].name, upper, price});
+      const double shadow_price = upper ? found.upper[place] : found.lower[place];
+      if (shadow_price > worth_saying) {
+        result.limiting_bounds.push_back({descriptions[k].name, upper, shadow_price});
       }
     }
   }
@@ -227,14 +230,14 @@ void describe_limits(std::vector<JudgedPlant>& plants, const EnsembleSearch& ens
 
 }  // namespace
 
-std::string LimitingGoal::description() const {
+std::string ActiveConstraint::description() const {
   return fmt::format("{}{}: relaxing it by 1 % lowers the rms by {:.2f} %", describe(goal),
-                     member.empty() ? "" : fmt::format(", on {}", member), price);
+                     member.empty() ? "" : fmt::format(", on {}", member), shadow_price);
 }
 
-double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoals& goals) {
+double worst_constraint(const control::LoopEvaluation& evaluation, const Constraints& goals) {
   if (!evaluation.stable()) return std::numeric_limits<double>::infinity();
-  double worst = std::sqrt(evaluation.effort_variance) / goals.valve_effort;
+  double worst = std::sqrt(evaluation.effort_variance) / goals.control_effort;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     worst = std::max(worst,
                      evaluation.highest_peak(control::loop_breaks[b]) / goals.sensitivity_peak[b]);
@@ -243,31 +246,31 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 }
 
 TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& structure,
-                  const HardGoals& goals, const TuningOptions& options) {
+                  const Constraints& goals, const TuningOptions& options) {
   check(structure, goals, options);
   TuningResult result;
   result.starts = options.starts;
-  result.law.structure = structure;
-  std::vector<JudgedPlant> plants = make_plants(problem, goals, options.members);
-  std::vector<std::size_t> carried{0};
+  result.controller.structure = structure;
+  std::vector<PlantEvaluator> plants = make_plants(problem, goals, options.members);
+  std::vector<std::size_t> active{0};
   std::vector<std::vector<double>> points;
   for (const auto& gains : options.warm_starts) points.push_back(log_gains({structure, gains}));
   if (options.starts > 0) {
-    const auto found = global_search(plants, structure, goals, options, carried, result);
+    const auto found = global_search(plants, structure, goals, options, active, result);
     points.insert(points.end(), found.begin(), found.end());
   }
   EnsembleSearch ensemble(plants, structure, goals, options);
-  std::optional<HeldLaw> chosen;
+  std::optional<FixedController> chosen;
   for (std::size_t i = 0; i < points.size(); ++i) {
     // A search that did not carry what limits a warm start would leave it for the nominal optimum.
-    constexpr std::size_t most_carried = 8;
+    constexpr std::size_t max_active = 8;
     const bool warm = i < options.warm_starts.size();
     const auto held =
-        ensemble.hold(points[i], warm ? ensemble.near_goals(points[i], most_carried) : carried);
+        ensemble.hold(points[i], warm ? ensemble.near_goals(points[i], max_active) : active);
     if (held && (!chosen || ensemble.better(*held, *chosen)) &&
         ensemble.stable_by_eigenvalues(held->point)) {
       chosen = held;
-      result.carried_members = ensemble.carried_names();
+      result.active_scenarios = ensemble.active_names();
     }
   }
   result.evaluations += ensemble.evaluations();
@@ -275,12 +278,12 @@ TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& 
   result.interrupted = result.interrupted || ensemble.stopped();
   if (!chosen) {
     result.status = TuningStatus::unstable;
-    result.worst_goal_ratio = std::numeric_limits<double>::infinity();
+    result.worst_constraint = std::numeric_limits<double>::infinity();
     return result;
   }
-  result.law = law_at(structure, chosen->point);
-  result.evaluation = plants.front().judge(result.law, true).evaluation;
-  result.worst_goal_ratio = chosen->worst_ratio;
+  result.controller = controller_at(structure, chosen->point);
+  result.evaluation = plants.front().evaluate(result.controller, true).evaluation;
+  result.worst_constraint = chosen->worst_ratio;
   result.soft_rms = chosen->soft_rms;
   result.status =
       chosen->worst_ratio <= 1.0 + rounding ? TuningStatus::optimal : TuningStatus::infeasible;

@@ -22,7 +22,7 @@ struct TuningOptions {
   /// problem's own plant. The objective covers the members only; without members every objective is
   /// the nominal one.
   std::vector<EnsembleMember> members = {};
-  SoftGoal soft_goal = {};
+  Objective objective = {};
   /// Number of threads for the starts. The result does not depend on it.
   unsigned threads = 1;
   /// Polled before every evaluation, from any of the threads. True ends the tuning with the best
@@ -37,13 +37,13 @@ enum class TuningStatus {
 };
 
 /// A constraint active at the optimum, with its shadow price.
-struct LimitingGoal {
-  GoalRatio goal;
+struct ActiveConstraint {
+  NormalisedConstraint goal;
   std::string member;  // plant name; empty for the problem's own plant
   /// Shadow price from the Lagrange multipliers: relaxing this limit by 1 % lowers the objective's
-  /// rms by `price` per cent. In an infeasible result it lowers the worst ratio instead. The
+  /// rms by `shadow_price` per cent. In an infeasible result it lowers the worst ratio instead. The
   /// constraints listed there are mutually incompatible.
-  double price = 0.0;
+  double shadow_price = 0.0;
 
   /// "sensitivity peak at valve command, 0.84 Hz: relaxing it by 1 % lowers the rms by 0.21 %".
   std::string description() const;
@@ -53,29 +53,29 @@ struct LimitingGoal {
 struct LimitingBound {
   std::string gain;
   bool upper = false;
-  double price = 0.0;
+  double shadow_price = 0.0;
 };
 
 /// The best feasible controller over all starts.
 struct TuningResult {
   TuningStatus status = TuningStatus::infeasible;
-  control::ControlLaw law;
+  control::Controller controller;
   control::LoopEvaluation evaluation;  // on the problem's own plant
   /// Rms of the objective (rad of motor).
   double soft_rms = 0.0;
   /// Largest normalised constraint (value/limit) over all plants; at most 1 when feasible.
-  double worst_goal_ratio = 0.0;
+  double worst_constraint = 0.0;
   /// The active constraints: those met with a margin below 0.1 %.
-  std::vector<std::string> active_goals;
+  std::vector<std::string> active_constraints;
   /// The constraints with a positive shadow price, in descending order of it.
-  std::vector<LimitingGoal> limits;
+  std::vector<ActiveConstraint> limits;
   std::vector<LimitingBound> limiting_bounds;
   /// Norm of the cost's gradient that the multipliers leave unbalanced, relative; near 0 at a true
   /// optimum.
   double gradient_residual = 0.0;
   /// Active members of the last search. The other members met their constraints without being in
   /// it.
-  std::vector<std::string> carried_members;
+  std::vector<std::string> active_scenarios;
   /// Gains that rest on a bound of the search.
   std::vector<std::string> gains_at_bound;
   int starts = 0;
@@ -89,8 +89,8 @@ struct TuningResult {
 };
 
 /// The largest value/limit over the constraints on Ms and control effort; infinity for an unstable
-/// loop. JudgedPlant covers all constraints.
-double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoals& goals);
+/// loop. PlantEvaluator covers all constraints.
+double worst_constraint(const control::LoopEvaluation& evaluation, const Constraints& goals);
 
 /// Minimises the boresight rms under the constraints. The method is sequential quadratic
 /// programming on the logarithms of the gains (feasible_search.hpp), within the bounds of
@@ -114,6 +114,6 @@ double worst_goal_ratio(const control::LoopEvaluation& evaluation, const HardGoa
 /// @throws InvalidInput for options below 1 (starts: below 0, or 0 without warm starts), a quantile
 /// outside (0, 1], warm starts of another size, and as validate(goals).
 TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& structure,
-                  const HardGoals& goals, const TuningOptions& options);
+                  const Constraints& goals, const TuningOptions& options);
 
 }  // namespace boresight::design

@@ -20,7 +20,7 @@ double rms_about_mean(const VectorXd& values) {
 }
 
 // How many steps of the course are left out.
-Index settled_steps(const LoopCourse& course, double settling) {
+Index settled_steps(const ReferenceTrajectory& course, double settling) {
   const double steps = std::round(settling / course.interval);
   if (!(steps >= 0.0) || !(steps < static_cast<double>(course.reference.size() - 1))) {
     throw InvalidInput(fmt::format(
@@ -37,7 +37,8 @@ bool agree(const IntegratorAgreement& agreement) {
   return agreement.status == RunStatus::complete && agreement.ratio() <= integrator_agreement_limit;
 }
 
-IntegratorAgreement integrator_agreement(const SimulatedLoop& loop, const LoopCourse& course,
+IntegratorAgreement integrator_agreement(const SimulatedLoop& loop,
+                                         const ReferenceTrajectory& course,
                                          const IntegratorAgreementOptions& options) {
   const Index settled = settled_steps(course, options.settling);
   const Index compared = course.reference.size() - settled;
@@ -57,15 +58,16 @@ IntegratorAgreement integrator_agreement(const SimulatedLoop& loop, const LoopCo
   const LoopRun collocation = run_loop(loop, course, how);
   agreement.collocation_steps = collocation.result.statistics.steps;
   if (!has_completed(collocation)) return agreement;
-  agreement.collocation_rms = rms_about_mean(collocation.beam_error.tail(compared));
+  agreement.collocation_rms = rms_about_mean(collocation.boresight_error.tail(compared));
   how.integrator = plant::Integrator::cvodes;
   how.relative_tolerance = options.cvodes_relative_tolerance;
   how.absolute_tolerance = options.cvodes_absolute_tolerance;
   const LoopRun cvodes = run_loop(loop, course, how);
   agreement.cvodes_steps = cvodes.result.statistics.steps;
   if (!has_completed(cvodes)) return agreement;
-  agreement.cvodes_rms = rms_about_mean(cvodes.beam_error.tail(compared));
-  agreement.difference_rms = rms((collocation.beam_error - cvodes.beam_error).tail(compared));
+  agreement.cvodes_rms = rms_about_mean(cvodes.boresight_error.tail(compared));
+  agreement.difference_rms =
+      rms((collocation.boresight_error - cvodes.boresight_error).tail(compared));
   return agreement;
 }
 

@@ -51,7 +51,8 @@ bool agree(const IntegratorAgreement& agreement);
 /// give bit-identical results.
 /// @throws InvalidInput for a settling time below 0 or not shorter than the trajectory, and as
 /// run_loop.
-IntegratorAgreement integrator_agreement(const SimulatedLoop& loop, const LoopCourse& course,
+IntegratorAgreement integrator_agreement(const SimulatedLoop& loop,
+                                         const ReferenceTrajectory& course,
                                          const IntegratorAgreementOptions& options = {});
 
 }  // namespace boresight::design

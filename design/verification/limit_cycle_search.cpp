@@ -51,13 +51,13 @@ std::optional<double> frequency_of(const Swing& swing, double interval) {
 }
 
 // Steps at the start (rad at the sky): a loop may hunt only once it was disturbed.
-constexpr std::array<double, hunting_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
-                                                    8.0 * millidegree};
+constexpr std::array<double, limit_cycle_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
+                                                        8.0 * millidegree};
 
-HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
-                    double rate, double nudge, double duration) {
+LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
+                       double rate, double nudge, double duration) {
   const double gear = loop.gear_ratio;
-  HuntingResult result;
+  LimitCycleResult result;
   result.rate = rate;
   const Index samples = whole_samples(options.settling + duration, loop.sample_time);
   const auto target = [&](double t) {
@@ -68,79 +68,82 @@ HuntingResult watch(const SimulatedLoop& loop, const NonlinearVerificationOption
   const LoopRun run = run_loop(loop, course, without_noise());
   result.status = run.status;
   result.message = run.message;
-  result.encoder_amplitude = result.beam_amplitude = result.persistence = nan;
+  result.encoder_amplitude = result.boresight_amplitude = result.persistence = nan;
   if (run.status != RunStatus::complete) return result;
   const Index half = whole_samples(0.5 * duration, loop.sample_time);
   const Index quarter = half / 2;
   const Swing encoder = swing_of(run.encoder_error.tail(half));
   result.encoder_amplitude = encoder.amplitude;
-  const Swing beam = swing_of(run.beam_error.tail(half));
-  result.beam_amplitude = beam.amplitude;
-  const Index kept = std::min(half, whole_samples(longest_hunting_trace, loop.sample_time));
-  result.trace = {loop.sample_time, beam.values.tail(kept), encoder.values.tail(kept)};
+  const Swing boresight = swing_of(run.boresight_error.tail(half));
+  result.boresight_amplitude = boresight.amplitude;
+  const Index kept = std::min(half, whole_samples(longest_limit_cycle_trace, loop.sample_time));
+  result.trace = {loop.sample_time, boresight.values.tail(kept), encoder.values.tail(kept)};
   const double before =
       swing_of(run.encoder_error.segment(run.encoder_error.size() - half - quarter, quarter))
           .amplitude;
   result.persistence = before > 0.0 ? encoder.amplitude / before : 1.0;
   result.frequency = frequency_of(encoder, loop.sample_time);
-  const double least = std::max(0.5 * loop.encoder_resolution / gear, 1e-3 * millidegree);
-  result.limit_cycle = encoder.amplitude > least && result.persistence > 0.8;
+  const double minimum = std::max(0.5 * loop.encoder_resolution / gear, 1e-3 * millidegree);
+  result.limit_cycle = encoder.amplitude > minimum && result.persistence > 0.8;
   return result;
 }
 
 // Of the runs at one rate; the first of those alike.
-std::size_t worst_of(std::span<const HuntingResult> runs) {
-  const auto rank = [](const HuntingResult& run) {
+std::size_t worst_of(std::span<const LimitCycleResult> runs) {
+  const auto rank = [](const LimitCycleResult& run) {
     if (run.status != RunStatus::complete) return std::pair(2, 0.0);
-    return run.limit_cycle ? std::pair(1, run.beam_amplitude) : std::pair(0, run.encoder_amplitude);
+    return run.limit_cycle ? std::pair(1, run.boresight_amplitude)
+                           : std::pair(0, run.encoder_amplitude);
   };
   return static_cast<std::size_t>(std::ranges::max_element(runs, {}, rank) - runs.begin());
 }
 
 }  // namespace
 
-HuntingResult limit_cycle_run(const SimulatedLoop& loop,
-                              const NonlinearVerificationOptions& options, double rate,
-                              std::size_t start) {
-  return watch(loop, options, rate, nudges.at(start), options.hunting_duration);
+LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
+                                 const NonlinearVerificationOptions& options, double rate,
+                                 std::size_t start) {
+  return watch(loop, options, rate, nudges.at(start), options.limit_cycle_duration);
 }
 
-HuntingResult confirmed_limit_cycle(const SimulatedLoop& loop,
-                                    const NonlinearVerificationOptions& options, double rate,
-                                    std::span<HuntingResult> runs) {
-  std::array<bool, hunting_starts> again{};
+LimitCycleResult confirmed_limit_cycle(const SimulatedLoop& loop,
+                                       const NonlinearVerificationOptions& options, double rate,
+                                       std::span<LimitCycleResult> runs) {
+  std::array<bool, limit_cycle_starts> again{};
   std::size_t place = worst_of(runs);
   while (runs[place].limit_cycle && !again.at(place)) {
     again.at(place) = true;
     runs[place] = watch(loop, options, rate, nudges.at(place),
-                        hunting_confirmation * options.hunting_duration);
+                        limit_cycle_confirmation * options.limit_cycle_duration);
     place = worst_of(runs);
   }
-  HuntingResult worst = runs[place];
+  LimitCycleResult worst = runs[place];
   worst.starts = static_cast<int>(runs.size());
-  worst.starts_hunting = static_cast<int>(std::ranges::count_if(runs, &HuntingResult::limit_cycle));
+  worst.starts_with_limit_cycle =
+      static_cast<int>(std::ranges::count_if(runs, &LimitCycleResult::limit_cycle));
   return worst;
 }
 
-double hunting_amplitude(const std::vector<HuntingResult>& hunting) {
+double limit_cycle_amplitude(const std::vector<LimitCycleResult>& limit_cycles) {
   double largest = 0.0;
-  for (const auto& run : hunting) {
-    if (run.limit_cycle) largest = std::max(largest, run.beam_amplitude);
+  for (const auto& run : limit_cycles) {
+    if (run.limit_cycle) largest = std::max(largest, run.boresight_amplitude);
   }
   return largest;
 }
 
-bool hunting_seen(const std::vector<HuntingResult>& hunting) {
+bool limit_cycle_seen(const std::vector<LimitCycleResult>& limit_cycles) {
   return std::ranges::all_of(
-      hunting, [](const HuntingResult& run) { return run.status == RunStatus::complete; });
+      limit_cycles, [](const LimitCycleResult& run) { return run.status == RunStatus::complete; });
 }
 
-double hunting_limit(double error) {
+double limit_cycle_limit(double error) {
   return std::numbers::sqrt2 * error;
 }
 
-bool holds_still(const std::vector<HuntingResult>& hunting, double error) {
-  return hunting_seen(hunting) && hunting_amplitude(hunting) <= hunting_limit(error);
+bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double error) {
+  return limit_cycle_seen(limit_cycles) &&
+         limit_cycle_amplitude(limit_cycles) <= limit_cycle_limit(error);
 }
 
 }  // namespace boresight::design

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/design/verification/steady_run.hpp>
@@ -27,7 +27,7 @@ constexpr int continuous = 16;  // times as many samples stand for a continuous 
 struct WindRun {
   RunStatus status = RunStatus::complete;
   std::string message;
-  double beam_variance = 0.0;
+  double boresight_variance = 0.0;
   double encoder_variance = 0.0;
   double at_command_limit = 0.0;
   ErrorTrace trace;
@@ -44,10 +44,10 @@ VectorXd about_mean(const VectorXd& values) {
 // The last `count` errors of a complete run, the boresight's about their mean.
 ErrorTrace last_errors(const LoopRun& run, double interval, Index count) {
   if (run.status != RunStatus::complete) return {};
-  return {interval, about_mean(run.beam_error.tail(count)), run.encoder_error.tail(count)};
+  return {interval, about_mean(run.boresight_error.tail(count)), run.encoder_error.tail(count)};
 }
 
-double share_at_limit(const SimulatedLoop& loop, const LoopRun& run) {
+double fraction_at_limit(const SimulatedLoop& loop, const LoopRun& run) {
   const VectorXd command = plant::column(run.result, "valve_command");
   const double limit = loop.antenna.valve.stroke_limit * (1.0 - 1e-12);
   return static_cast<double>((command.array().abs() >= limit).count()) /
@@ -59,10 +59,10 @@ WindRun keep(const SimulatedLoop& loop, const LoopRun& run, Index settled) {
   kept.status = run.status;
   kept.message = run.message;
   if (run.status != RunStatus::complete) return kept;
-  const Index rest = run.beam_error.size() - 1 - settled;
-  kept.beam_variance = variance(run.beam_error.tail(rest));
+  const Index rest = run.boresight_error.size() - 1 - settled;
+  kept.boresight_variance = variance(run.boresight_error.tail(rest));
   kept.encoder_variance = variance(run.encoder_error.tail(rest));
-  kept.at_command_limit = share_at_limit(loop, run);
+  kept.at_command_limit = fraction_at_limit(loop, run);
   return kept;
 }
 
@@ -70,7 +70,7 @@ WindRun keep(const SimulatedLoop& loop, const LoopRun& run, Index settled) {
 struct Pooled {
   RunStatus status = RunStatus::complete;
   std::string message;
-  double beam_rms = 0.0;
+  double boresight_rms = 0.0;
   double encoder_rms = 0.0;
   double at_command_limit = 0.0;
 };
@@ -81,19 +81,19 @@ Pooled pool(const WindRun* runs, std::size_t count) {
     const WindRun& run = runs[i];
     if (run.status > pooled.status) pooled.status = run.status;
     if (pooled.message.empty()) pooled.message = run.message;
-    pooled.beam_rms += run.beam_variance;
+    pooled.boresight_rms += run.boresight_variance;
     pooled.encoder_rms += run.encoder_variance;
     pooled.at_command_limit += run.at_command_limit / static_cast<double>(count);
   }
   const auto root_of_mean = [&](double sum) {
     return pooled.status == RunStatus::complete ? std::sqrt(sum / static_cast<double>(count)) : nan;
   };
-  pooled.beam_rms = root_of_mean(pooled.beam_rms);
+  pooled.boresight_rms = root_of_mean(pooled.boresight_rms);
   pooled.encoder_rms = root_of_mean(pooled.encoder_rms);
   return pooled;
 }
 
-LoopCourse first_steps(const LoopCourse& course, Index steps) {
+ReferenceTrajectory first_steps(const ReferenceTrajectory& course, Index steps) {
   const Index kept = std::min(steps, course.reference.size());
   return {course.interval, course.reference.head(kept), course.reference_rate.head(kept),
           course.reference_acceleration.head(kept), course.wind_torque.head(kept)};
@@ -123,7 +123,7 @@ class WindStudy {
   void run(std::size_t job) {
     const std::size_t kind = job / options_.seeds.size();
     const std::size_t seed = job % options_.seeds.size();
-    const LoopCourse& course = courses_[seed];
+    const ReferenceTrajectory& course = courses_[seed];
     LoopRunOptions how;
     how.seed = options_.seeds[seed];
     if (kind >= first_switched) how.without = {switched_[kind - first_switched]};
@@ -141,7 +141,7 @@ class WindStudy {
   const ErrorTrace& first_trace() const { return runs_.front().trace; }
 
   IntegratorAgreement compare_integrators() const {
-    const LoopCourse& course = courses_.front();
+    const ReferenceTrajectory& course = courses_.front();
     const Index steps =
         1 + whole_samples(options_.settling + options_.second_integrator_duration, course.interval);
     return integrator_agreement(loop_, first_steps(course, steps),
@@ -156,28 +156,29 @@ class WindStudy {
     WindResult result;
     result.status = whole.status;
     result.message = whole.message;
-    result.beam_rms = whole.beam_rms;
+    result.boresight_rms = whole.boresight_rms;
     result.encoder_rms = whole.encoder_rms;
     result.at_command_limit = whole.at_command_limit;
     result.trace = first_trace();
     control::LoopEvaluator evaluator = make_evaluator(problem_);
     result.predicted_rms =
-        std::sqrt(evaluator.evaluate(loop_.law, false).beam_variance()) / loop_.gear_ratio;
+        std::sqrt(evaluator.evaluate(loop_.controller, false).boresight_variance()) /
+        loop_.gear_ratio;
     if (!options_.explain) {
-      result.linear_rms = result.continuous_rms = result.chance = result.sampling = nan;
-      result.joint = nan;
+      result.linear_rms = result.continuous_rms = result.realisation_error = result.sampling = nan;
+      result.interaction = nan;
       return result;
     }
-    result.linear_rms = kind(linear_kind).beam_rms;
-    result.continuous_rms = kind(continuous_kind).beam_rms;
-    result.chance = result.continuous_rms - result.predicted_rms;
+    result.linear_rms = kind(linear_kind).boresight_rms;
+    result.continuous_rms = kind(continuous_kind).boresight_rms;
+    result.realisation_error = result.continuous_rms - result.predicted_rms;
     result.sampling = result.linear_rms - result.continuous_rms;
-    result.joint = result.beam_rms - result.linear_rms;
+    result.interaction = result.boresight_rms - result.linear_rms;
     for (std::size_t i = 0; i < switched_.size(); ++i) {
       const Pooled without = kind(first_switched + i);
-      result.influences.push_back(
-          {switched_[i], without.status, without.beam_rms, result.beam_rms - without.beam_rms});
-      result.joint -= result.influences.back().difference;
+      result.influences.push_back({switched_[i], without.status, without.boresight_rms,
+                                   result.boresight_rms - without.boresight_rms});
+      result.interaction -= result.influences.back().difference;
     }
     return result;
   }
@@ -189,7 +190,7 @@ class WindStudy {
   const TrackingProblem& problem_;
   const SimulatedLoop& loop_;
   const NonlinearVerificationOptions& options_;
-  std::vector<LoopCourse> courses_;
+  std::vector<ReferenceTrajectory> courses_;
   std::vector<Influence> switched_;
   std::vector<WindRun> runs_;
 };
@@ -218,7 +219,7 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   ReversalResult result;
   result.status = run.status;
   result.message = run.message;
-  result.encoder_error = result.beam_error = result.encoder_error_without_friction = nan;
+  result.encoder_error = result.boresight_error = result.encoder_error_without_friction = nan;
   // The first reversals set the loop swinging; those after them repeat.
   const Index first = settled + 2 * per_leg;
   const Index rest = course.reference.size() - first;
@@ -232,7 +233,7 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   if (run.status != RunStatus::complete) return result;
   Index largest = 0;
   result.encoder_error = result.trace.encoder.cwiseAbs().maxCoeff(&largest);
-  result.beam_error = result.trace.boresight.cwiseAbs().maxCoeff();
+  result.boresight_error = result.trace.boresight.cwiseAbs().maxCoeff();
   result.time_of_largest = loop.sample_time * static_cast<double>(largest % per_leg);
   return result;
 }
@@ -242,9 +243,11 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   SlewResult result;
   result.distance = options.slew_distance;
   const auto wanted = limits_at_motor(options, gear);
-  const auto limits = within_reach(loop.antenna, plant::reflected_inertia(loop.linear), wanted);
+  const auto limits =
+      achievable_limits(loop.antenna, plant::reflected_inertia(loop.linear), wanted);
   result.limits = {limits.rate / gear, limits.acceleration / gear};
-  result.within_reach = limits.rate == wanted.rate && limits.acceleration == wanted.acceleration;
+  result.achievable_limits =
+      limits.rate == wanted.rate && limits.acceleration == wanted.acceleration;
   result.largest_error = result.overshoot = nan;
   if (!(limits.rate > 0.0) || !(limits.acceleration > 0.0)) {
     result.status = RunStatus::failed;
@@ -252,7 +255,7 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
     return result;
   }
   constexpr double longest = 3600.0;  // s
-  const double moving = control::least_move_time(limits, result.distance * gear);
+  const double moving = control::min_move_time(limits, result.distance * gear);
   if (moving > longest) {
     result.status = RunStatus::failed;
     result.message = fmt::format("the move would take {:.3g} s", moving);
@@ -270,7 +273,7 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   result.status = run.status;
   result.message = run.message;
   if (run.result.values.size() == 0) return result;
-  result.at_command_limit = share_at_limit(loop, run);
+  result.at_command_limit = fraction_at_limit(loop, run);
   const VectorXd after = run.encoder_error.tail(run.encoder_error.size() - end);
   result.largest_error = run.encoder_error.segment(settled, end - settled).cwiseAbs().maxCoeff();
   const double sign = result.distance < 0.0 ? -1.0 : 1.0;
@@ -299,8 +302,8 @@ void check(const NonlinearVerificationOptions& options) {
   require(!options.seeds.empty(), "at least one seed", 0.0);
   require(options.wind_duration >= 1.0, "a wind_duration of at least 1 s", options.wind_duration);
   require(options.settling >= 0.0, "a settling time of at least 0 s", options.settling);
-  require(options.hunting_duration >= 1.0, "a hunting_duration of at least 1 s",
-          options.hunting_duration);
+  require(options.limit_cycle_duration >= 1.0, "a limit_cycle_duration of at least 1 s",
+          options.limit_cycle_duration);
   require(options.reversal_leg >= 1.0, "a reversal_leg of at least 1 s", options.reversal_leg);
   require(options.settling_watched >= 1.0, "a settling_watched of at least 1 s",
           options.settling_watched);
@@ -350,19 +353,20 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
     rates.push_back(options.tracking_rate);
     result.reversal.emplace();
   }
-  std::vector<HuntingResult> hunting(rates.size() * hunting_starts);
+  std::vector<LimitCycleResult> limit_cycles(rates.size() * limit_cycle_starts);
   if (options.slew_distance != 0.0) result.slew.emplace();
   if (options.second_integrator) result.integrators.emplace();
   // The longest first; the runs in wind are many and even.
-  const std::size_t comparing = 0, first_hunting = 1, reversal = first_hunting + hunting.size(),
-                    slewing = reversal + 1, first_wind = slewing + 1;
+  const std::size_t comparing = 0, first_limit_cycle = 1,
+                    reversal = first_limit_cycle + limit_cycles.size(), slewing = reversal + 1,
+                    first_wind = slewing + 1;
   numerics::for_each_index(first_wind + wind.jobs(), options.threads, [&](std::size_t job) {
     if (job == comparing) {
       if (result.integrators) *result.integrators = wind.compare_integrators();
     } else if (job < reversal) {
-      const std::size_t run = job - first_hunting;
-      hunting[run] =
-          limit_cycle_run(loop, options, rates[run / hunting_starts], run % hunting_starts);
+      const std::size_t run = job - first_limit_cycle;
+      limit_cycles[run] =
+          limit_cycle_run(loop, options, rates[run / limit_cycle_starts], run % limit_cycle_starts);
     } else if (job == reversal) {
       if (result.reversal) *result.reversal = reverse(loop, options);
     } else if (job == slewing) {
@@ -371,10 +375,11 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
       wind.run(job - first_wind);
     }
   });
-  result.hunting.resize(rates.size());
+  result.limit_cycles.resize(rates.size());
   numerics::for_each_index(rates.size(), options.threads, [&](std::size_t i) {
-    result.hunting[i] = confirmed_limit_cycle(
-        loop, options, rates[i], std::span(hunting).subspan(i * hunting_starts, hunting_starts));
+    result.limit_cycles[i] = confirmed_limit_cycle(
+        loop, options, rates[i],
+        std::span(limit_cycles).subspan(i * limit_cycle_starts, limit_cycle_starts));
   });
   result.wind = wind.result();
   return result;

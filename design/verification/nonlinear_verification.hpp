@@ -27,15 +27,15 @@ struct NonlinearVerificationOptions {
   bool second_integrator = false;  // repeat the first run in wind by CVODES
   /// s of that run after settling, at most: a stable loop forgets integration errors.
   double second_integrator_duration = 100.0;
-  double hunting_duration = 200.0;  // s, after settling; hunting_confirmation
-  double reversal_leg = 20.0;       // s in each direction of the slow triangle
-  double slew_distance = 0.0;       // rad; 0: no slew
+  double limit_cycle_duration = 200.0;  // s, after settling; limit_cycle_confirmation
+  double reversal_leg = 20.0;           // s in each direction of the slow triangle
+  double slew_distance = 0.0;           // rad; 0: no slew
   /// Of the command preprocessor.
   control::CommandLimits limits;
   /// Encoder error (rad) within which a slew counts as settled.
   double settled_error = 0.0;
-  /// Boresight rms (rad at the sky) of the tightest budget. It bounds limit cycles (holds_still);
-  /// no run depends on it.
+  /// Boresight rms (rad at the sky) of the tightest budget. It bounds limit cycles
+  /// (is_limit_cycle_free); no run depends on it.
   double tightest_budget = 0.0;
   double settling_watched = 40.0;  // s after the end of the command
   unsigned threads = 1;
@@ -54,30 +54,30 @@ struct ErrorTrace {
 struct InfluenceResult {
   Influence influence = Influence::friction;
   RunStatus status = RunStatus::complete;  // the worst over the seeds
-  double beam_rms_without = 0.0;           // rad; NaN unless complete
+  double boresight_rms_without = 0.0;      // rad; NaN unless complete
   double difference = 0.0;                 // rad, with less without it; NaN unless complete
 };
 
 /// The loop in wind, compared with the linear prediction. Rms about the mean over all seeds, rad at
 /// the sky; NaN where a run did not complete or was not requested (explain). The difference from
 /// the prediction is the sum
-///   simulated - predicted = realisation error (`chance`) + sampling
-///                           + sum of the influences' differences + interaction (`joint`)
+///   simulated - predicted = realisation error (`realisation_error`) + sampling
+///                           + sum of the influences' differences + interaction (`interaction`)
 struct WindResult {
   RunStatus status = RunStatus::complete;
   std::string message;  // of the first run that did not complete
-  double beam_rms = 0.0;
+  double boresight_rms = 0.0;
   double encoder_rms = 0.0;
   double predicted_rms = 0.0;  // by the spectrum, continuous with exact dead time
   /// The same records through the linear plant, with the actual and 16 times the sampling rate.
   double linear_rms = 0.0;
   double continuous_rms = 0.0;
-  double chance = 0.0;    // realisation error: continuous - predicted
-  double sampling = 0.0;  // linear - continuous
+  double realisation_error = 0.0;  // realisation error: continuous - predicted
+  double sampling = 0.0;           // linear - continuous
   std::vector<InfluenceResult> influences;
   /// Interaction: simulated - linear - sum of the influences' differences. It includes effects that
   /// the nonlinear antenna has beyond the linear plant (lines, offset torque).
-  double joint = 0.0;
+  double interaction = 0.0;
   double at_command_limit = 0.0;  // fraction of samples
   /// Of the whole loop with the first seed after settling, both about their means.
   ErrorTrace trace;
@@ -85,37 +85,38 @@ struct WindResult {
 
 /// Number of limit-cycle runs per rate, each with another initial step. With stiction, the stopping
 /// position decides whether a loop comes to rest or limit-cycles.
-inline constexpr std::size_t hunting_starts = 3;
+inline constexpr std::size_t limit_cycle_starts = 3;
 /// Confirmation runs are this many times longer: with stiction, integral action causes slowly
 /// decaying oscillations lasting minutes. At each rate the limit cycle of the largest amplitude is
 /// confirmed; if it decays, the next one, and so on.
-inline constexpr double hunting_confirmation = 3.0;
+inline constexpr double limit_cycle_confirmation = 3.0;
 
 /// s of such a run that the trace keeps.
-inline constexpr double longest_hunting_trace = 120.0;
+inline constexpr double longest_limit_cycle_trace = 120.0;
 
-/// Limit-cycle result at a steady rate, without wind or noise. Of its runs (hunting_starts): one
-/// that did not complete; else the limit cycle of the largest boresight amplitude; else the run of
-/// the largest encoder amplitude.
-struct HuntingResult {
+/// Limit-cycle result at a steady rate, without wind or noise. Of its runs (limit_cycle_starts):
+/// one that did not complete; else the limit cycle of the largest boresight amplitude; else the run
+/// of the largest encoder amplitude.
+struct LimitCycleResult {
   double rate = 0.0;  // rad/s at the sky
   RunStatus status = RunStatus::complete;
   std::string message;
   int starts = 0;  // number of runs; 0: not stated
-  /// Of these, with a limit cycle, which is confirmed (hunting_confirmation) for the result's only.
-  int starts_hunting = 0;
+  /// Of these, with a limit cycle, which is confirmed (limit_cycle_confirmation) for the result's
+  /// only.
+  int starts_with_limit_cycle = 0;
   /// True if some runs came to rest while others did not.
-  bool some_only() const { return limit_cycle && starts_hunting < starts; }
+  bool some_only() const { return limit_cycle && starts_with_limit_cycle < starts; }
   /// Half of the peak-to-peak value (rad) of the true angles in the second half of the run, with a
   /// fitted straight line removed.
   double encoder_amplitude = 0.0;
-  double beam_amplitude = 0.0;
+  double boresight_amplitude = 0.0;
   /// Hz; none with fewer than two whole periods in that half.
   std::optional<double> frequency;
   /// Ratio to the amplitude in the quarter before: 1 for a limit cycle, less for a decaying
   /// oscillation.
   double persistence = 0.0;
-  /// The end of that half, at most longest_hunting_trace, with the same lines removed.
+  /// The end of that half, at most longest_limit_cycle_trace, with the same lines removed.
   ErrorTrace trace;
   /// In at least one run the encoder's amplitude exceeds half its resolution (or 1e-3 mdeg without
   /// one) and persists (persistence above 0.8).
@@ -128,7 +129,7 @@ struct ReversalResult {
   RunStatus status = RunStatus::complete;
   std::string message;
   double encoder_error = 0.0;
-  double beam_error = 0.0;
+  double boresight_error = 0.0;
   /// The same without friction: the error that a velocity reversal excites in a linear loop. NaN if
   /// that run did not complete.
   double encoder_error_without_friction = 0.0;
@@ -145,7 +146,7 @@ struct SlewResult {
   std::string message;
   double distance = 0.0;          // rad at the sky
   control::CommandLimits limits;  // at the sky, those applied: the drive's capability if smaller
-  bool within_reach = true;       // the drive can reach the limits requested
+  bool achievable_limits = true;  // the drive can reach the limits requested
   double command_time = 0.0;      // s
   double largest_error = 0.0;     // rad, of the encoder from the command, while it moves
   double overshoot = 0.0;         // rad, beyond the target
@@ -158,21 +159,22 @@ struct SlewResult {
 struct NonlinearVerification {
   WindResult wind;
   std::optional<IntegratorAgreement> integrators;  // none without second_integrator
-  std::vector<HuntingResult> hunting;      // at rest, then at the tracking rate if that is not 0
+  std::vector<LimitCycleResult>
+      limit_cycles;                        // at rest, then at the tracking rate if that is not 0
   std::optional<ReversalResult> reversal;  // none without a tracking rate
   std::optional<SlewResult> slew;
 };
 
 /// Largest boresight amplitude of its limit cycles (rad); 0 without any.
-double hunting_amplitude(const std::vector<HuntingResult>& hunting);
+double limit_cycle_amplitude(const std::vector<LimitCycleResult>& limit_cycles);
 /// True if every limit-cycle run completed.
-bool hunting_seen(const std::vector<HuntingResult>& hunting);
+bool limit_cycle_seen(const std::vector<LimitCycleResult>& limit_cycles);
 /// The amplitude (rad) of a sinusoid with rms `error` (rad): a limit cycle up to this amplitude
 /// stays within the error.
-double hunting_limit(double error);
+double limit_cycle_limit(double error);
 /// True if the loop is free of limit cycles beyond an rms `error` (rad) when only friction and its
-/// own torque act: hunting_seen, and no amplitude above the hunting_limit.
-bool holds_still(const std::vector<HuntingResult>& hunting, double error);
+/// own torque act: limit_cycle_seen, and no amplitude above the limit_cycle_limit.
+bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double error);
 
 /// Runs only the first of verify_in_time's runs in wind (WindResult::trace), to compare another
 /// controller with the verified one. @throws as verify_in_time.

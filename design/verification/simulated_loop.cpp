@@ -30,7 +30,8 @@ class StraightFlow final : public plant::NonlinearChannels {
     using Channel = plant::AntennaChannels;
     rest_->evaluate(z, n, dn_dz);
     const double spool = z[Channel::spool];
-    const numerics::Slope port = plant::port_opening(valve_, spool + valve_.null_offset);
+    const numerics::ValueAndDerivative port =
+        plant::port_opening(valve_, spool + valve_.null_offset);
     dn_dz.row(Channel::flow_1).setZero();
     dn_dz.row(Channel::flow_2).setZero();
     n[Channel::flow_1] = port.value - spool + null_flow_;
@@ -88,7 +89,7 @@ void straighten(const plant::NonlinearAntenna& antenna, const plant::FeedbackSys
 }
 
 Start steady_start(const plant::NonlinearAntenna& antenna, const plant::FeedbackSystem& orifice,
-                   const LoopCourse& course, bool straight) {
+                   const ReferenceTrajectory& course, bool straight) {
   const auto winds = static_cast<Index>(orifice.linear.inputs.size()) - orifice.channel_outputs - 1;
   VectorXd wind = VectorXd::Zero(winds);
   if (winds == 1) wind[0] = course.wind_torque[0];
@@ -103,7 +104,7 @@ Start steady_start(const plant::NonlinearAntenna& antenna, const plant::Feedback
           seen[output("encoder")]};
 }
 
-void check(const SimulatedLoop& loop, const LoopCourse& course) {
+void check(const SimulatedLoop& loop, const ReferenceTrajectory& course) {
   const Index steps = course.reference.size();
   if (steps < 2 || course.reference_rate.size() != steps ||
       course.reference_acceleration.size() != steps || course.wind_torque.size() != steps) {
@@ -140,17 +141,17 @@ std::vector<plant::Sensor> sensors(const SimulatedLoop& loop, bool reads_torque,
   return result;
 }
 
-bool feeds_torque_back(const control::ControlLaw& law) {
-  return law.structure.has(control::LoopPath::pressure) ||
-         law.structure.has(control::LoopPath::compliance);
+bool feeds_torque_back(const control::Controller& controller) {
+  return controller.structure.has(control::LoopPath::pressure) ||
+         controller.structure.has(control::LoopPath::compliance);
 }
 
 void finish(LoopRun& run, const SimulatedLoop& loop, double interval) {
   const Index steps = run.result.values.rows();
   run.reference.conservativeResize(steps);
-  run.beam_error = (plant::column(run.result, "beam") -
-                    plant::boresight_factor(loop.linear.structure) * run.reference) /
-                   loop.gear_ratio;
+  run.boresight_error = (plant::column(run.result, "beam") -
+                         plant::boresight_factor(loop.linear.structure) * run.reference) /
+                        loop.gear_ratio;
   run.encoder_error = (plant::column(run.result, "encoder") - run.reference) / loop.gear_ratio;
   if (!run.result.complete) {
     run.status = RunStatus::interrupted;
@@ -200,11 +201,11 @@ std::string_view to_string(RunStatus status) {
 
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
-                                  const control::ControlLaw& law) {
+                                  const control::Controller& controller) {
   SimulatedLoop loop;
   loop.antenna = antenna;
   loop.linear = problem.plant;
-  loop.law = law;
+  loop.controller = controller;
   loop.gear_ratio = problem.gear_ratio;
   loop.sample_time = problem.delay / 1.5;
   loop.noise = problem.noise;
@@ -225,9 +226,9 @@ bool has(const SimulatedLoop& loop, Influence influence) {
   throw InvalidInput("influence: not one of those there are");
 }
 
-LoopCourse shaped_course(const control::CommandLimits& limits, double sample_time, Index samples,
-                         Index steps,
-                         const std::function<control::CommandSample(double time)>& target) {
+ReferenceTrajectory shaped_course(
+    const control::CommandLimits& limits, double sample_time, Index samples, Index steps,
+    const std::function<control::CommandSample(double time)>& target) {
   if (samples < 1 || steps < 1) {
     throw InvalidInput(
         fmt::format("shaped_course: expected at least 1 sample of at least 1 step, found {} of {}",
@@ -236,7 +237,7 @@ LoopCourse shaped_course(const control::CommandLimits& limits, double sample_tim
   control::CommandSample start = target(0.0);
   start.rate = std::clamp(start.rate, -limits.rate, limits.rate);
   control::CommandPreprocessor command(limits, sample_time, start);
-  LoopCourse course;
+  ReferenceTrajectory course;
   course.interval = sample_time / static_cast<double>(steps);
   const Index all = samples * steps + 1;
   course.reference.resize(all);
@@ -259,20 +260,20 @@ LoopCourse shaped_course(const control::CommandLimits& limits, double sample_tim
   return course;
 }
 
-LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
+LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
                  const LoopRunOptions& options) {
   check(loop, course);
   const bool straight = is_off(options, Influence::orifice);
   const bool limited = !is_off(options, Influence::limits);
   const auto antenna = antenna_without(loop, options);
-  control::AntennaControllerOptions law_options;
-  law_options.anti_windup = loop.anti_windup;
-  if (limited) law_options.command_limit = loop.antenna.valve.stroke_limit;
+  control::AntennaControllerOptions controller_options;
+  controller_options.anti_windup = loop.anti_windup;
+  if (limited) controller_options.command_limit = loop.antenna.valve.stroke_limit;
   if (loop.feedforward) {
-    law_options.feedforward =
-        control::plant_feedforward(loop.linear, loop.law, 1.5 * loop.sample_time);
+    controller_options.feedforward =
+        control::plant_feedforward(loop.linear, loop.controller, 1.5 * loop.sample_time);
   }
-  control::AntennaController controller(loop.law, loop.sample_time, law_options);
+  control::AntennaController controller(loop.controller, loop.sample_time, controller_options);
   plant::FeedbackSystem system = plant::to_feedback_system(antenna);
   LoopRun run;
   plant::SimulationPlan plan;
@@ -302,7 +303,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
       course.wind_torque;
   plan.controller = &controller;
   plan.computation_delay = loop.sample_time;
-  plan.sensors = sensors(loop, feeds_torque_back(loop.law), loop.sample_time, options,
+  plan.sensors = sensors(loop, feeds_torque_back(loop.controller), loop.sample_time, options,
                          !is_off(options, Influence::quantisation));
   plan.seed = options.seed;
   plan.integrator = options.integrator;
@@ -321,7 +322,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
   return run;
 }
 
-LoopRun run_linear_loop(const SimulatedLoop& loop, const LoopCourse& course, int finer,
+LoopRun run_linear_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course, int finer,
                         const LoopRunOptions& options) {
   check(loop, course);
   if (finer < 1) {
@@ -334,21 +335,21 @@ LoopRun run_linear_loop(const SimulatedLoop& loop, const LoopCourse& course, int
   const double step = finer == 1 ? course.interval : std::min(course.interval, 0.5 * sample_time);
   const auto parts = static_cast<Index>(std::llround(course.interval / step));
   const Index steps = (course.wind_torque.size() - 1) * parts + 1;
-  control::AntennaController controller(loop.law, sample_time);
+  control::AntennaController controller(loop.controller, sample_time);
   plant::SimulationPlan plan;
   plan.interval = course.interval / static_cast<double>(parts);
   plan.signals = {"reference", "reference_rate", "reference_acceleration", "wind_torque"};
   plan.values = Eigen::MatrixXd::Zero(steps, 4);
   for (Index k = 0; k < steps; ++k) {
     const Index i = k / parts;
-    const double share = static_cast<double>(k % parts) / static_cast<double>(parts);
+    const double fraction = static_cast<double>(k % parts) / static_cast<double>(parts);
     double torque = course.wind_torque[i];
-    if (k % parts != 0) torque += share * (course.wind_torque[i + 1] - torque);
+    if (k % parts != 0) torque += fraction * (course.wind_torque[i + 1] - torque);
     plan.values(k, 3) = torque - course.wind_torque[0];
   }
   plan.controller = &controller;
   plan.computation_delay = delay;
-  plan.sensors = sensors(loop, feeds_torque_back(loop.law), sample_time, options, false);
+  plan.sensors = sensors(loop, feeds_torque_back(loop.controller), sample_time, options, false);
   plan.seed = options.seed;
   plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;

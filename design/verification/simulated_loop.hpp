@@ -10,7 +10,7 @@
 #include <Eigen/Core>
 
 #include <boresight/control/controllers/command_preprocessor.hpp>
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 #include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
@@ -24,7 +24,7 @@ struct SimulatedLoop {
   /// The linear plant of the design. Its viscous friction replaces the friction curve when that is
   /// switched off, and feedforward is computed from it.
   plant::AntennaPlant linear;
-  control::ControlLaw law;
+  control::Controller controller;
   double gear_ratio = 1.0;
   double sample_time = 0.02;           // s
   control::SensorNoise noise;          // densities, as in the linear design
@@ -39,7 +39,7 @@ struct SimulatedLoop {
 /// Without converter steps.
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
-                                  const control::ControlLaw& law);
+                                  const control::Controller& controller);
 
 /// Effects that the linear design neglects; each can be switched off separately:
 ///   friction       the curve and its bristles; off: the linear plant's viscous friction
@@ -58,7 +58,7 @@ bool has(const SimulatedLoop& loop, Influence influence);
 
 /// Reference trajectory and disturbance of a run, from t = 0 in steps of `interval`. The sample
 /// time is a multiple of the interval.
-struct LoopCourse {
+struct ReferenceTrajectory {
   double interval = 0.0;                   // s
   Eigen::VectorXd reference;               // rad of motor
   Eigen::VectorXd reference_rate;          // rad/s
@@ -70,9 +70,9 @@ struct LoopCourse {
 /// preprocessor's output for a target: `target(t)` with its rate (CommandSample::acceleration is
 /// ignored). Starts on the target at t = 0, at its rate within the limits. No wind.
 /// @throws InvalidInput as CommandPreprocessor, and for less than 1 sample or step.
-LoopCourse shaped_course(const control::CommandLimits& limits, double sample_time,
-                         Eigen::Index samples, Eigen::Index steps,
-                         const std::function<control::CommandSample(double time)>& target);
+ReferenceTrajectory shaped_course(const control::CommandLimits& limits, double sample_time,
+                                  Eigen::Index samples, Eigen::Index steps,
+                                  const std::function<control::CommandSample(double time)>& target);
 
 struct LoopRunOptions {
   std::vector<Influence> without = {};
@@ -106,7 +106,7 @@ struct LoopRun {
   /// antenna's initial position.
   Eigen::VectorXd reference;
   // At the steps of the trajectory, rad at the sky: angle less that reference.
-  Eigen::VectorXd beam_error;
+  Eigen::VectorXd boresight_error;
   Eigen::VectorXd encoder_error;
 };
 
@@ -116,7 +116,7 @@ struct LoopRun {
 /// its status.
 /// @throws InvalidInput for sizes that differ, an interval that does not divide the sample time,
 /// and as the parts.
-LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
+LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
                  const LoopRunOptions& options = {});
 
 /// Runs the same trajectory on the linear plant (no limits, no converter steps), sampled `finer`
@@ -125,7 +125,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const LoopCourse& course,
 /// only the wind and the noise of the trajectory act, which determine the whole error of a linear
 /// loop. For one seed the noise is the same only for the same `finer`. @throws InvalidInput as
 /// run_loop, and for finer below 1.
-LoopRun run_linear_loop(const SimulatedLoop& loop, const LoopCourse& course, int finer = 1,
+LoopRun run_linear_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course, int finer = 1,
                         const LoopRunOptions& options = {});
 
 }  // namespace boresight::design

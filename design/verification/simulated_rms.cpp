@@ -36,7 +36,7 @@ ArrayXd line_gains(const TrackingProblem& problem, const SimulatedLoop& loop, In
                                           .noise = problem.noise,
                                           .wind_spectrum = ArrayXd::Zero(lines),
                                           .band = problem.rms_band});
-  return evaluator.wind_transmission(loop.law);
+  return evaluator.wind_transmission(loop.controller);
 }
 
 double mean_square(const VectorXd& errors, Index counted) {
@@ -87,7 +87,7 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
         const LoopRun run = run_loop(loop, courses->course(how.seed), how);
         ends[static_cast<std::size_t>(k)] = run.status;
         simulated[k] =
-            run.status == RunStatus::complete ? mean_square(run.beam_error, counted) : nan;
+            run.status == RunStatus::complete ? mean_square(run.boresight_error, counted) : nan;
       });
   SimulatedRms result;
   result.status = *std::ranges::max_element(ends);

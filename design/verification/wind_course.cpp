@@ -18,7 +18,7 @@ plant::StationarySeries part(const WindCondition& wind, plant::WindTorquePart wh
 
 }  // namespace
 
-LoopCourse steady_course(double interval, double rate, VectorXd wind_torque) {
+ReferenceTrajectory steady_course(double interval, double rate, VectorXd wind_torque) {
   const Eigen::Index samples = wind_torque.size();
   return {interval,
           VectorXd::LinSpaced(samples, 0.0, rate * interval * static_cast<double>(samples - 1)),
@@ -46,7 +46,7 @@ VectorXd WindCourses::gusts(std::uint64_t seed) const {
   return torque.head(samples_) / gear_ratio_;
 }
 
-LoopCourse WindCourses::course(std::uint64_t seed) const {
+ReferenceTrajectory WindCourses::course(std::uint64_t seed) const {
   return steady_course(interval_, rate_, gusts(seed).array() + mean_torque_);
 }
 

@@ -11,7 +11,7 @@ namespace boresight::design {
 
 /// Reference trajectory at a constant rate (rad/s of motor) from 0, with the given wind torque at
 /// the motor shaft (N m), one sample per interval (s).
-LoopCourse steady_course(double interval, double rate, Eigen::VectorXd wind_torque);
+ReferenceTrajectory steady_course(double interval, double rate, Eigen::VectorXd wind_torque);
 
 /// Reference trajectories at a constant rate (rad/s of motor) from 0 in records of the problem's
 /// wind for a duration (s), in steps of the loop's sample time. Prepared once for any number of
@@ -26,7 +26,7 @@ class WindCourses {
   /// Wind torque of a seed's record about its mean, at the motor shaft (N m).
   Eigen::VectorXd gusts(std::uint64_t seed) const;
   /// That record with the mean torque, and the reference.
-  LoopCourse course(std::uint64_t seed) const;
+  ReferenceTrajectory course(std::uint64_t seed) const;
 
  private:
   double interval_, rate_, gear_ratio_, mean_torque_;

@@ -36,10 +36,10 @@ def draw_friction(campaign):
     axes.plot([abs(rate) for rate in windows["rate_rad_per_s"]],
               [abs(torque) for torque in windows["torque_N_m"]], ".", color="0.75", markersize=3,
               label="windows of all tests")
-    axes.fill_between(plot["rate_rad_per_s"], plot["reconciled_lower_95_N_m"],
-                      plot["reconciled_upper_95_N_m"], color="0.6", linewidth=0)
-    axes.plot(plot["rate_rad_per_s"], plot["reconciled_N_m"], color="0.0",
-              label="reconciled, 95 % band")
+    axes.fill_between(plot["rate_rad_per_s"], plot["combined_lower_95_N_m"],
+                      plot["combined_upper_95_N_m"], color="0.6", linewidth=0)
+    axes.plot(plot["rate_rad_per_s"], plot["combined_N_m"], color="0.0",
+              label="combined, 95 % band")
     line = tests["constant_speed_line"]
     if line:
         coulomb, slope = line["coulomb"]["value_si"], line["slope"]["value_si"]

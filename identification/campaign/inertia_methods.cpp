@@ -195,18 +195,17 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
   return result;
 }
 
-bool ReconciledInertia::contradictory() const {
+bool CombinedInertia::contradictory() const {
   return heterogeneity > numerics::chi_squared_quantile(0.999, degrees_of_freedom);
 }
 
-ReconciledInertia reconcile(const std::vector<numerics::Uncertain>& estimates,
-                            double motor_inertia) {
+CombinedInertia combine(const std::vector<numerics::Uncertain>& estimates, double motor_inertia) {
   if (estimates.size() < 2) {
     throw InvalidInput(
         fmt::format("reconcile: expected at least 2 estimates, found {}", estimates.size()));
   }
   const auto pooled = numerics::pooled_mean(estimates);
-  ReconciledInertia result;
+  CombinedInertia result;
   result.value = pooled.mean.value;
   result.standard_uncertainty = pooled.mean.standard_uncertainty;
   result.between_methods = pooled.between;

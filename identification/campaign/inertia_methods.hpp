@@ -88,7 +88,7 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
                                        const numerics::PropagationOptions& options = {});
 
 /// One estimate from several methods.
-struct ReconciledInertia {
+struct CombinedInertia {
   double value = 0.0;
   double standard_uncertainty = 0.0;
   double lower = 0.0;  // 95 %
@@ -113,8 +113,7 @@ struct ReconciledInertia {
 /// Student's t with methods - 1 degrees of freedom; of two methods, the hull of their own. Results
 /// of one record count as one method: pass their mean. `motor_inertia`: all motors.
 /// @throws InvalidInput for fewer than two estimates or an uncertainty that is not positive.
-ReconciledInertia reconcile(const std::vector<numerics::Uncertain>& estimates,
-                            double motor_inertia);
+CombinedInertia combine(const std::vector<numerics::Uncertain>& estimates, double motor_inertia);
 
 /// Tachometer scale (rad/s of motor per V): shaft speed (rad/s) at a voltage (V), times the motor's
 /// turns per tachometer turn. Sommerville eq. 32.

@@ -128,12 +128,12 @@ Eigen::VectorXd scatter_by_row(const FrictionRows& rows, const Eigen::VectorXd& 
     records.emplace_back(size.size(), sizes.back());
     begin = end;
   }
-  const double least =
+  const double minimum =
       std::max(0.5 * numerics::median(sizes), 1e-9 * rows.torque.cwiseAbs().maxCoeff());
   Eigen::VectorXd scatter(rows.size());
   Eigen::Index at = 0;
   for (const auto& [length, value] : records) {
-    scatter.segment(at, static_cast<Eigen::Index>(length)).setConstant(std::max(least, value));
+    scatter.segment(at, static_cast<Eigen::Index>(length)).setConstant(std::max(minimum, value));
     at += static_cast<Eigen::Index>(length);
   }
   return scatter;
@@ -150,10 +150,10 @@ Eigen::MatrixXd covariance(const Model& model, const Fit& fit, const Eigen::Vect
   for (Eigen::Index i = 0; i < rows.size(); ++i) {
     for (Eigen::Index j = i; j < rows.size(); ++j) {
       const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-      const double share = 1.0 - (rows.time[b] - rows.time[a]) / correlation_time;
-      if (rows.record[a] != rows.record[b] || share <= 0.0) break;
+      const double fraction = 1.0 - (rows.time[b] - rows.time[a]) / correlation_time;
+      if (rows.record[a] != rows.record[b] || fraction <= 0.0) break;
       const Eigen::MatrixXd product = score.row(i).transpose() * score.row(j);
-      middle += i == j ? product : Eigen::MatrixXd(share * (product + product.transpose()));
+      middle += i == j ? product : Eigen::MatrixXd(fraction * (product + product.transpose()));
     }
   }
   middle.diagonal().array() += model.prior_deviation.array().square().inverse();

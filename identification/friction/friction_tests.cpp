@@ -15,13 +15,14 @@ namespace boresight::identification {
 namespace {
 
 void check(const FrictionTestOptions& options) {
-  if (!(options.settled_share > 0.0) || !(options.longest_tail > 0.0) ||
+  if (!(options.settled_fraction > 0.0) || !(options.longest_tail > 0.0) ||
       !(options.longest_tail <= 1.0) || !(options.unsettled_tail > 0.0) ||
-      !(options.unsettled_tail <= options.longest_tail) || options.draws < 20) {
+      !(options.unsettled_tail <= options.longest_tail) || options.random_samples < 20) {
     throw InvalidInput(fmt::format(
-        "constant_speed_tests: expected a positive settled share, 0 < unsettled tail "
-        "<= longest tail <= 1 and at least 20 draws, found {}, {}, {}, {}",
-        options.settled_share, options.unsettled_tail, options.longest_tail, options.draws));
+        "constant_speed_tests: expected a positive settled fraction, 0 < unsettled tail "
+        "<= longest tail <= 1 and at least 20 samples, found {}, {}, {}, {}",
+        options.settled_fraction, options.unsettled_tail, options.longest_tail,
+        options.random_samples));
   }
 }
 
@@ -33,10 +34,10 @@ double mean_change(const Eigen::VectorXd& series) {
          static_cast<double>(series.size() - end);
 }
 
-bool is_settled(const Eigen::VectorXd& series, double share) {
+bool is_settled(const Eigen::VectorXd& series, double fraction) {
   const Eigen::Index half = series.size() / 2;
   return std::abs(series.tail(half).mean() - series.head(half).mean()) <=
-         share * std::abs(series.mean());
+         fraction * std::abs(series.mean());
 }
 
 SteadyTail measure(const DriveRecord& record, std::size_t index, const Eigen::VectorXd& torque,
@@ -87,15 +88,16 @@ std::optional<SteadyTail> steady_tail(const DriveRecord& record, std::size_t ind
   while (from > half.first && usable[static_cast<std::size_t>(from - 1)]) --from;
   if (!usable[static_cast<std::size_t>(last)]) return std::nullopt;
   const auto length = static_cast<double>(half.last - half.first + 1);
-  const auto first_of = [&](double share) {
-    return last - static_cast<Eigen::Index>(share * length) + 1;
+  const auto first_of = [&](double fraction) {
+    return last - static_cast<Eigen::Index>(fraction * length) + 1;
   };
-  for (double share = options.longest_tail; share >= 0.7 * options.unsettled_tail; share -= 0.1) {
-    const Eigen::Index first = first_of(share);
+  for (double fraction = options.longest_tail; fraction >= 0.7 * options.unsettled_tail;
+       fraction -= 0.1) {
+    const Eigen::Index first = first_of(fraction);
     const Eigen::Index count = last - first + 1;
     if (first < from || count < 10) continue;
-    if (is_settled(record.motor_rate.values.segment(first, count), options.settled_share) &&
-        is_settled(torque.segment(first, count), options.settled_share)) {
+    if (is_settled(record.motor_rate.values.segment(first, count), options.settled_fraction) &&
+        is_settled(torque.segment(first, count), options.settled_fraction)) {
       return measure(record, index, torque, {first, last, half.direction});
     }
   }
@@ -258,18 +260,19 @@ ConstantSpeedTests constant_speed_tests(const Campaign& campaign,
   const InstrumentErrors exact = no_instrument_errors(channel_count(campaign));
   const Evaluation nominal = evaluate(speeds, subtracted, scale, exact, nullptr);
   const auto count = static_cast<Eigen::Index>(speeds.size());
-  Eigen::MatrixXd coulomb(options.draws, count), offset(options.draws, count);
-  Eigen::VectorXd slope(options.draws), intercept(options.draws);
-  const auto record_draw = [&](const Evaluation& result, int draw, LineDraws& draws) {
-    draws.intercept(draw) = result.intercept - nominal.intercept;
-    draws.slope(draw) = result.slope - nominal.slope;
-    draws.offset(draw) = result.offset.mean() - nominal.offset.mean();
+  Eigen::MatrixXd coulomb(options.random_samples, count), offset(options.random_samples, count);
+  Eigen::VectorXd slope(options.random_samples), intercept(options.random_samples);
+  const auto record_draw = [&](const Evaluation& result, int draw, LineSamples& random_samples) {
+    random_samples.intercept(draw) = result.intercept - nominal.intercept;
+    random_samples.slope(draw) = result.slope - nominal.slope;
+    random_samples.offset(draw) = result.offset.mean() - nominal.offset.mean();
   };
-  for (auto* draws : {&tests.by_transducers, &tests.by_scatter}) {
-    *draws = {Eigen::VectorXd(options.draws), Eigen::VectorXd(options.draws),
-              Eigen::VectorXd(options.draws)};
+  for (auto* random_samples : {&tests.by_transducers, &tests.by_scatter}) {
+    *random_samples = {Eigen::VectorXd(options.random_samples),
+                       Eigen::VectorXd(options.random_samples),
+                       Eigen::VectorXd(options.random_samples)};
   }
-  for (int draw = 0; draw < options.draws; ++draw) {
+  for (int draw = 0; draw < options.random_samples; ++draw) {
     const auto number = static_cast<std::uint64_t>(draw);
     const numerics::NormalNumbers normal(options.seed + 1, number);
     InstrumentErrors errors = draw_instrument_errors(campaign, options.seed, number);
@@ -288,8 +291,8 @@ ConstantSpeedTests constant_speed_tests(const Campaign& campaign,
     ConstantSpeedPoint point;
     point.record = speed.record;
     point.rate = nominal.rate(i);
-    point.coulomb = numerics::interval_from_draws(nominal.coulomb(i), coulomb.col(i));
-    point.offset = numerics::interval_from_draws(nominal.offset(i), offset.col(i));
+    point.coulomb = numerics::interval_from_samples(nominal.coulomb(i), coulomb.col(i));
+    point.offset = numerics::interval_from_samples(nominal.offset(i), offset.col(i));
     point.inertia_torque = 0.5 * inertia.value * (speed.up.acceleration - speed.down.acceleration);
     for (const auto& tail : tests.tails) {
       if (tail.record != speed.record) continue;
@@ -298,11 +301,11 @@ ConstantSpeedTests constant_speed_tests(const Campaign& campaign,
     }
     tests.points.push_back(point);
   }
-  tests.offset = numerics::interval_from_draws(nominal.offset.mean(), offset.rowwise().mean());
+  tests.offset = numerics::interval_from_samples(nominal.offset.mean(), offset.rowwise().mean());
   tests.has_line = count > 1;
   if (tests.has_line) {
-    tests.slope = numerics::interval_from_draws(nominal.slope, slope);
-    tests.intercept = numerics::interval_from_draws(nominal.intercept, intercept);
+    tests.slope = numerics::interval_from_samples(nominal.slope, slope);
+    tests.intercept = numerics::interval_from_samples(nominal.intercept, intercept);
     tests.line_misfit =
         (nominal.coulomb.array() - nominal.intercept - nominal.slope * nominal.rate.array())
             .abs()

@@ -14,7 +14,7 @@ namespace boresight::identification {
 struct FrictionTestOptions {
   /// A tail counts as settled if rate and torque change between its two halves by less than this
   /// fraction.
-  double settled_share = 0.03;
+  double settled_fraction = 0.03;
   /// Tail lengths as fractions of a half period, measured from its end: the longest one tried, and
   /// the one used if none is settled.
   double longest_tail = 0.8;
@@ -27,9 +27,9 @@ struct FrictionTestOptions {
   double after_breakaway = 0.25;
   /// The antenna is at rest if its rate stays for `rest_time` (s) below this fraction of the
   /// record's largest rate, or below five standard deviations of the tachometer noise.
-  double rest_share = 0.1;
+  double rest_fraction = 0.1;
   double rest_time = 0.3;
-  int draws = 400;  // of the Monte Carlo
+  int random_samples = 400;  // of the Monte Carlo
   std::uint64_t seed = 1;
 };
 
@@ -68,7 +68,7 @@ struct ConstantSpeedPoint {
 };
 
 /// Changes of a straight friction line and its offset in each sample, in the order of the samples.
-struct LineDraws {
+struct LineSamples {
   Eigen::VectorXd intercept;  // N m
   Eigen::VectorXd slope;      // N m s/rad
   Eigen::VectorXd offset;     // N m
@@ -85,8 +85,8 @@ struct ConstantSpeedTests {
   double line_misfit = 0.0;      // N m, the largest distance of a point
   numerics::Interval offset;     // N m, mean over the speeds
   /// Of the pressure transducers' errors alone, and of the tails' scatter alone.
-  LineDraws by_transducers;
-  LineDraws by_scatter;
+  LineSamples by_transducers;
+  LineSamples by_scatter;
   std::vector<std::string> notes;
 };
 
@@ -116,8 +116,8 @@ struct SlowRampTests {
   numerics::Interval coulomb;    // N m, just after
   numerics::Interval offset;     // N m, half the sum just after
   /// Intercept and offset as above; slope 0.
-  LineDraws by_transducers;
-  LineDraws by_scatter;
+  LineSamples by_transducers;
+  LineSamples by_scatter;
   std::vector<std::string> notes;
 };
 

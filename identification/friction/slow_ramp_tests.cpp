@@ -36,7 +36,8 @@ void find_breakaways(const Campaign& campaign, std::size_t index,
   const Eigen::VectorXd rate = moving_mean(record.motor_rate.values, around);
   const double noise =
       noise_level(record.motor_rate.values) / std::sqrt(static_cast<double>(2 * around + 1));
-  const double threshold = std::max(options.rest_share * rate.cwiseAbs().maxCoeff(), 5.0 * noise);
+  const double threshold =
+      std::max(options.rest_fraction * rate.cwiseAbs().maxCoeff(), 5.0 * noise);
   const auto usable = usable_samples(record, options.guard_time);
   Eigen::Index rested = 0;
   for (Eigen::Index i = 0; i + after <= record.samples(); ++i) {
@@ -89,12 +90,12 @@ Sides sides(const std::vector<Breakaway>& breakaways, double Breakaway::*torque)
 }  // namespace
 
 SlowRampTests slow_ramp_tests(const Campaign& campaign, const FrictionTestOptions& options) {
-  if (!(options.after_breakaway > 0.0) || !(options.rest_share > 0.0) ||
-      !(options.rest_share < 1.0) || !(options.rest_time > 0.0) || options.draws < 20) {
-    throw InvalidInput(
-        fmt::format("slow_ramp_tests: expected positive times, a rest share between 0 and 1 and at "
-                    "least 20 draws, found {}, {}, {}, {}",
-                    options.after_breakaway, options.rest_time, options.rest_share, options.draws));
+  if (!(options.after_breakaway > 0.0) || !(options.rest_fraction > 0.0) ||
+      !(options.rest_fraction < 1.0) || !(options.rest_time > 0.0) || options.random_samples < 20) {
+    throw InvalidInput(fmt::format(
+        "slow_ramp_tests: expected positive times, a rest fraction between 0 and 1 and at "
+        "least 20 samples, found {}, {}, {}, {}",
+        options.after_breakaway, options.rest_time, options.rest_fraction, options.random_samples));
   }
   SlowRampTests tests;
   for (std::size_t index = 0; index < campaign.records.size(); ++index) {
@@ -127,10 +128,11 @@ SlowRampTests slow_ramp_tests(const Campaign& campaign, const FrictionTestOption
   const Sides after = sides(tests.breakaways, &Breakaway::torque_after);
   const auto half_difference = [](const Sides& s) { return 0.5 * (s.up - s.down); };
   const auto half_sum = [](const Sides& s) { return 0.5 * (s.up + s.down); };
-  const Eigen::Index count = options.draws;
+  const Eigen::Index count = options.random_samples;
   Eigen::VectorXd breakaway(count), coulomb(count), offset(count);
-  for (auto* draws : {&tests.by_transducers, &tests.by_scatter}) {
-    *draws = {Eigen::VectorXd(count), Eigen::VectorXd::Zero(count), Eigen::VectorXd(count)};
+  for (auto* random_samples : {&tests.by_transducers, &tests.by_scatter}) {
+    *random_samples = {Eigen::VectorXd(count), Eigen::VectorXd::Zero(count),
+                       Eigen::VectorXd(count)};
   }
   for (Eigen::Index draw = 0; draw < count; ++draw) {
     const auto number = static_cast<std::uint64_t>(draw);
@@ -156,9 +158,9 @@ SlowRampTests slow_ramp_tests(const Campaign& campaign, const FrictionTestOption
     offset(draw) = scale_error * (half_sum(drawn_after) + half_sum(after_noise));
   }
   measure(exact);
-  tests.breakaway = numerics::interval_from_draws(half_difference(start), breakaway);
-  tests.coulomb = numerics::interval_from_draws(half_difference(after), coulomb);
-  tests.offset = numerics::interval_from_draws(half_sum(after), offset);
+  tests.breakaway = numerics::interval_from_samples(half_difference(start), breakaway);
+  tests.coulomb = numerics::interval_from_samples(half_difference(after), coulomb);
+  tests.offset = numerics::interval_from_samples(half_sum(after), offset);
   tests.notes.push_back(fmt::format(
       "Slow ramp: {} starts from rest up and {} down; {:.4g} N m as motion begins, {:.4g} N m in "
       "the {:.2g} s after; up {:.4g}, down {:.4g}, offset {:.4g} N m.",

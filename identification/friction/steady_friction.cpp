@@ -82,7 +82,7 @@ constexpr int viscous = 4;
 struct Question {
   int allowed = coulomb;
   bool stribeck_rate = false;
-  double least = 0.0;
+  double minimum = 0.0;
   double highest = 0.0;
 };
 
@@ -104,7 +104,7 @@ Question question_of(const std::vector<SteadyFriction>& tests) {
   asked.stribeck_rate = tests.size() > columns;
   if (at_rest || asked.stribeck_rate) asked.allowed |= bump;
   if (moving > 1) asked.allowed |= viscous;
-  asked.least = lowest / 3.0;
+  asked.minimum = lowest / 3.0;
   return asked;
 }
 
@@ -114,10 +114,10 @@ struct Answer {
 };
 
 Answer answer_of(const std::vector<SteadyFriction>& tests, const Question& asked) {
-  Answer best{fit_at(tests, asked.least, asked.allowed), asked.least};
+  Answer best{fit_at(tests, asked.minimum, asked.allowed), asked.minimum};
   if (!asked.stribeck_rate) return best;
   // A grid in the logarithm, three times about the best of the one before.
-  double low = std::log(asked.least), high = std::log(asked.highest);
+  double low = std::log(asked.minimum), high = std::log(asked.highest);
   constexpr int steps = 60, rounds = 4;
   for (int round = 0; round < rounds; ++round) {
     const double step = (high - low) / steps;
@@ -126,7 +126,7 @@ Answer answer_of(const std::vector<SteadyFriction>& tests, const Question& asked
       const LinearPart part = fit_at(tests, tried, asked.allowed);
       if (part.squares < best.part.squares * (1.0 - 1e-12)) best = {part, tried};
     }
-    low = std::max(std::log(asked.least), std::log(best.rate) - step);
+    low = std::max(std::log(asked.minimum), std::log(best.rate) - step);
     high = std::min(std::log(asked.highest), std::log(best.rate) + step);
   }
   return best;
@@ -142,19 +142,19 @@ Intervals points_of(const Answer& answer, const Question& asked) {
   FrictionInterval rate = point(answer.rate);
   if (answer.part.values[1] > 0.0) {
     constexpr double rounding = 1e-9;
-    rate.least_open = answer.rate <= asked.least * (1.0 + rounding);
+    rate.min_open = answer.rate <= asked.minimum * (1.0 + rounding);
     rate.largest_open = answer.rate >= asked.highest * (1.0 - rounding);
   } else {
-    rate = {asked.least, asked.highest, true, true, std::nullopt};
+    rate = {asked.minimum, asked.highest, true, true, std::nullopt};
   }
   return {point(answer.part.values[0]), point(answer.part.values[0] + answer.part.values[1]),
           point(answer.part.values[2]), rate};
 }
 
 void widen(FrictionInterval& interval, const FrictionInterval& other) {
-  interval.least = std::min(interval.least, other.least);
+  interval.minimum = std::min(interval.minimum, other.minimum);
   interval.largest = std::max(interval.largest, other.largest);
-  interval.least_open |= other.least_open;
+  interval.min_open |= other.min_open;
   interval.largest_open |= other.largest_open;
 }
 
@@ -190,7 +190,7 @@ SteadyFrictionIntervals steady_friction_intervals(const std::vector<SteadyFricti
   Intervals whole = points;
   bool falls = as_seen.part.values[1] > 0.0;
   std::array<double, curve_numbers> widest{};
-  for (std::size_t k = 0; k < curve_numbers; ++k) widest[k] = points[k].largest - points[k].least;
+  for (std::size_t k = 0; k < curve_numbers; ++k) widest[k] = points[k].largest - points[k].minimum;
   for (std::size_t i = 0; i < tests.size(); ++i) {
     const double leeway = tests[i].leeway;
     if (!(leeway >= 0.0) || !std::isfinite(leeway)) {
@@ -209,7 +209,7 @@ SteadyFrictionIntervals steady_friction_intervals(const std::vector<SteadyFricti
     }
     for (std::size_t k = 0; k < curve_numbers; ++k) {
       widen(whole[k], by_this[k]);
-      const double width = by_this[k].largest - by_this[k].least;
+      const double width = by_this[k].largest - by_this[k].minimum;
       if (width > widest[k]) {
         widest[k] = width;
         whole[k].moved_most_by = i;

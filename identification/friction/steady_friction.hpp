@@ -39,11 +39,11 @@ int steady_friction_freedom(const std::vector<SteadyFriction>& tests);
 
 /// The range of a parameter of the curve, in its own unit.
 struct FrictionInterval {
-  double least = 0.0;
+  double minimum = 0.0;
   double largest = 0.0;
   /// A fit reached that end of the search: the tests are also consistent with lower, or higher,
   /// values.
-  bool least_open = false;
+  bool min_open = false;
   bool largest_open = false;
   /// Index of the test whose torque moves the parameter most, an open end counting as the search's;
   /// none if no test moves it.

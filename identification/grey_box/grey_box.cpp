@@ -20,14 +20,15 @@ using Eigen::VectorXd;
 using P = GreyBoxParameters;
 
 void check(const GreyBoxOptions& options) {
-  if (!(options.sample_rate >= 0.0) || options.further_starts < 0 || options.draws < 100 ||
+  if (!(options.sample_rate >= 0.0) || options.further_starts < 0 || options.random_samples < 100 ||
       !(options.stretch > 0.0) || !(options.discrepancy.torque_balance >= 0.0) ||
       !(options.discrepancy.flow_balance >= 0.0) || !(options.discrepancy.stiffness >= 0.0) ||
       !(options.discrepancy.valve_lag >= 0.0)) {
     throw InvalidInput(fmt::format(
-        "fit_grey_box: expected a sample rate from 0, further starts from 0, at least 100 draws, a "
+        "fit_grey_box: expected a sample rate from 0, further starts from 0, at least 100 samples, "
+        "a "
         "positive stretch and discrepancies from 0, found {}, {}, {}, {}, {}, {} and {}",
-        options.sample_rate, options.further_starts, options.draws, options.stretch,
+        options.sample_rate, options.further_starts, options.random_samples, options.stretch,
         options.discrepancy.torque_balance, options.discrepancy.flow_balance,
         options.discrepancy.stiffness));
   }
@@ -70,8 +71,8 @@ double lag_discrepancy(const std::vector<GreyBoxRecord>& records, double lag, do
 class Progress {
  public:
   explicit Progress(const GreyBoxOptions& options) : options_(options) {}
-  void operator()(const std::string& what, double share) const {
-    if (options_.progress && !options_.progress(what, share)) {
+  void operator()(const std::string& what, double fraction) const {
+    if (options_.progress && !options_.progress(what, fraction)) {
       throw Interrupted("fit_grey_box: stopped as asked");
     }
   }
@@ -116,23 +117,24 @@ void add_quantities(GreyBoxResult& result, const P& parameters, const GreyBoxOpt
   GreyBoxPosterior prior;
   prior.point = VectorXd::Zero(parameters.size());
   prior.covariance = MatrixXd::Identity(parameters.size(), parameters.size());
-  const auto before = posterior_draws(parameters, prior, options.draws, options.seed + 1);
+  const auto before =
+      posterior_samples(parameters, prior, options.random_samples, options.seed + 1);
   const DriveEstimate centre = drive_estimate(parameters, prior.point);
   const auto& quantities = drive_quantities();
   const auto count = static_cast<Index>(quantities.size());
-  MatrixXd all(options.draws, count);
+  MatrixXd all(options.random_samples, count);
   for (Index q = 0; q < count; ++q) {
     const auto& quantity = quantities[static_cast<std::size_t>(q)];
-    VectorXd was(options.draws);
-    for (Index i = 0; i < options.draws; ++i) {
-      all(i, q) = result.draws[static_cast<std::size_t>(i)].*quantity.member;
+    VectorXd was(options.random_samples);
+    for (Index i = 0; i < options.random_samples; ++i) {
+      all(i, q) = result.random_samples[static_cast<std::size_t>(i)].*quantity.member;
       was(i) = before[static_cast<std::size_t>(i)].*quantity.member;
     }
     GreyBoxQuantity out;
     out.name = quantity.name;
     out.unit = quantity.unit;
-    out.posterior = numerics::interval_from_draws(result.estimate.*quantity.member, all.col(q));
-    out.prior = numerics::interval_from_draws(centre.*quantity.member, was);
+    out.posterior = numerics::interval_from_samples(result.estimate.*quantity.member, all.col(q));
+    out.prior = numerics::interval_from_samples(centre.*quantity.member, was);
     const double ratio = out.prior.standard_uncertainty > 0.0
                              ? out.posterior.standard_uncertainty / out.prior.standard_uncertainty
                              : 1.0;
@@ -299,7 +301,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   result.conflict = grey_box_conflict(parameters, best.x);
   widen(result.posterior, parameters, result.conflict);
   result.motion = motion_of(records);
-  add_motion_doubts(result.posterior, parameters, result.motion);
+  add_unidentifiable_directions(result.posterior, parameters, result.motion);
   const MatrixXd products = objective.products(best.x);
   const auto svd =
       numerics::singular_values(products.topLeftCorner(parameters.size(), parameters.size()));
@@ -320,7 +322,8 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   }
   result.estimate = drive_estimate(parameters, best.x);
   result.estimate.contradicted = result.conflict.widening > 1.0;
-  result.draws = posterior_draws(parameters, result.posterior, options.draws, options.seed);
+  result.random_samples =
+      posterior_samples(parameters, result.posterior, options.random_samples, options.seed);
   add_quantities(result, parameters, options);
   std::vector<double> times, rates, pressures;
   for (const auto& record : records) times.push_back(record.sample_time);
@@ -335,11 +338,13 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
 }
 
 numerics::Interval friction_interval(const GreyBoxResult& result, double rate) {
-  VectorXd draws(static_cast<Index>(result.draws.size()));
-  for (Index i = 0; i < draws.size(); ++i) {
-    draws(i) = friction_torque(result.draws[static_cast<std::size_t>(i)].friction, rate);
+  VectorXd random_samples(static_cast<Index>(result.random_samples.size()));
+  for (Index i = 0; i < random_samples.size(); ++i) {
+    random_samples(i) =
+        friction_torque(result.random_samples[static_cast<std::size_t>(i)].friction, rate);
   }
-  return numerics::interval_from_draws(friction_torque(result.estimate.friction, rate), draws);
+  return numerics::interval_from_samples(friction_torque(result.estimate.friction, rate),
+                                         random_samples);
 }
 
 std::vector<GreyBoxComparison> compare_with(

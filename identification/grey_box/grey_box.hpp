@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/identification/grey_box/grey_box_doubts.hpp>
+#include <boresight/identification/grey_box/grey_box_adequacy.hpp>
 #include <boresight/identification/grey_box/grey_box_posterior.hpp>
 #include <boresight/identification/grey_box/grey_box_whiteness.hpp>
 #include <boresight/numerics/statistics/least_squares.hpp>
@@ -22,7 +22,7 @@ struct GreyBoxOptions {
   double sample_rate = 0.0;
   /// Starts in addition to the one at the priors, sampled from the priors by the seed.
   int further_starts = 2;
-  int draws = 2000;  // of the posterior, from 100
+  int random_samples = 2000;  // of the posterior, from 100
   std::uint64_t seed = 1;
   /// Length (s) of errors that count as one observation of the model's error.
   double stretch = 4.0;
@@ -33,7 +33,7 @@ struct GreyBoxOptions {
   unsigned threads = 0;  // at a time; 0: as many as the machine has. Never changes the result.
   /// Called with the present step and the completed fraction; returns false to stop with
   /// Interrupted.
-  std::function<bool(const std::string& what, double share)> progress;
+  std::function<bool(const std::string& what, double fraction)> progress;
 };
 
 /// A quantity with its interval before (prior) and after (posterior) the records.
@@ -80,7 +80,7 @@ struct GreyBoxResult {
   Eigen::MatrixXd correlation;
   /// At the optimum; the samples are for a plant ensemble.
   DriveEstimate estimate;
-  std::vector<DriveEstimate> draws;
+  std::vector<DriveEstimate> random_samples;
   std::vector<GreyBoxResidual> residuals;
   std::vector<std::string> records;        // used, in the residuals' names
   std::vector<std::string> without_valve;  // of which only the mechanical half was used

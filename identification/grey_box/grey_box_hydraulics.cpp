@@ -4,7 +4,7 @@
 
 #include <boresight/identification/grey_box/grey_box_hydraulics.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/slope.hpp>
+#include <boresight/numerics/value_and_derivative.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -14,7 +14,7 @@ using Eigen::Index;
 using By = Eigen::Matrix<double, 2, C::count>;
 
 // y/(y^2 + e^2)^(1/4): sqrt|y| with the sign of y, smooth through 0, where flow turns laminar.
-numerics::Slope signed_root(double y) {
+numerics::ValueAndDerivative signed_root(double y) {
   constexpr double laminar = 0.02;  // of half the pressure between supply and return
   const double square = y * y + laminar * laminar;
   const double root = std::pow(square, -0.25);
@@ -25,8 +25,8 @@ numerics::Slope signed_root(double y) {
 
 PortOpening port_opening(const Eigen::VectorXd& c, const HydraulicUnits& units, double spool) {
   const double gain = c(C::valve_gain);
-  const double share = std::abs(spool) / units.largest_command;
-  const double bent = 1.0 + c(C::valve_curvature) * share;
+  const double fraction = std::abs(spool) / units.largest_command;
+  const double bent = 1.0 + c(C::valve_curvature) * fraction;
   const double position = gain * spool * bent + c(C::valve_null);
   const double lap = c(C::valve_lap);
   // Rounded, as the lands' edges are.
@@ -35,9 +35,9 @@ PortOpening port_opening(const Eigen::VectorXd& c, const HydraulicUnits& units, 
   const double before = std::hypot(position - lap, edge);
   const double slope = 1.0 - 0.5 * ((position + lap) / beyond - (position - lap) / before);
   return {position - 0.5 * (beyond - before),
-          slope * gain * (1.0 + 2.0 * c(C::valve_curvature) * share),
+          slope * gain * (1.0 + 2.0 * c(C::valve_curvature) * fraction),
           slope * spool * bent,
-          slope * gain * spool * share,
+          slope * gain * spool * fraction,
           slope,
           -0.5 * ((position + lap) / beyond + (position - lap) / before)};
 }

@@ -122,15 +122,15 @@ void MechanicalStepper::restart(double rate, double torque) {
   const double stiffness = c_(C::bristle_stiffness);
   const double speed = std::abs(rate);
   const bool moving = speed > 0.1 * c_(C::stribeck_rate);
-  const DryFriction most(c_, speed);
+  const DryFriction maximum(c_, speed);
   const double held = torque - c_(C::offset_torque);
-  const bool slipping = moving || std::abs(held) > most.value;
+  const bool slipping = moving || std::abs(held) > maximum.value;
   const double sign = std::copysign(1.0, moving ? rate : held);
-  z_ = (slipping ? sign * most.value : held) / stiffness;
+  z_ = (slipping ? sign * maximum.value : held) / stiffness;
   if (!derivatives_) return;
   by_.setZero();
   if (slipping) {
-    by_.col(1).segment<5>(C::coulomb_torque) = sign / stiffness * most.by(c_);
+    by_.col(1).segment<5>(C::coulomb_torque) = sign / stiffness * maximum.by(c_);
   } else {
     by_(C::offset_torque, 1) = -1.0 / stiffness;
   }
@@ -141,7 +141,7 @@ void MechanicalStepper::restart(double rate, double torque) {
     by_(C::tachometer_zero, 4 + 2 * static_cast<Index>(i)) = -1.0;
   }
   if (slipping) {
-    by_(C::tachometer_zero, 1) -= sign * std::copysign(1.0, rate) * most.by_rate / stiffness;
+    by_(C::tachometer_zero, 1) -= sign * std::copysign(1.0, rate) * maximum.by_rate / stiffness;
   }
 }
 

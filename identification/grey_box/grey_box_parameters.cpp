@@ -278,8 +278,8 @@ void GreyBoxParameters::add_modes(const DriveKnowledge& knowledge) {
     // inertia, which is known well, and so out of the transducers' gains.
     const double rank = static_cast<double>(i + 1);
     const double against_rest = 9.0 / (rank * rank * sum);
-    list_.push_back({fmt::format("share of structural mode {} against the rigid part", i + 1), "",
-                     true, against_rest, apart, false});
+    list_.push_back({fmt::format("fraction of structural mode {} against the rigid part", i + 1),
+                     "", true, against_rest, apart, false});
     list_.push_back(
         {fmt::format("locked-rotor frequency {}", i + 1), "Hz", true, f.value, relative(f), true});
   }
@@ -326,7 +326,7 @@ GreyBoxParameters::Coefficients GreyBoxParameters::mechanical(const VectorXd& po
   const double factor = recorded_inertia_factor(v);
   // Shares of the antenna: of the rigid part 1/(1 + sum), of a mode its ratio times that.
   double sum = 1.0;
-  for (Index i = 0; i < mode_count(); ++i) sum += v(share(i));
+  for (Index i = 0; i < mode_count(); ++i) sum += v(fraction(i));
   const auto inertia = [&](Index row, double motors_and_gears, double part, Index mode) {
     const double antenna = v(antenna_inertia) * part;
     const double value = factor * (motors_and_gears + antenna);
@@ -340,13 +340,13 @@ GreyBoxParameters::Coefficients GreyBoxParameters::mechanical(const VectorXd& po
     c.by_point(row, torque_factor) = -value * spread(torque_factor);
     c.by_point(row, tachometer_gain) = -value * spread(tachometer_gain);
     for (Index j = 0; j < mode_count(); ++j) {
-      c.by_point(row, share(j)) =
-          factor * antenna * ((j == mode ? 1.0 : 0.0) - v(share(j)) / sum) * spread(share(j));
+      c.by_point(row, fraction(j)) =
+          factor * antenna * ((j == mode ? 1.0 : 0.0) - v(fraction(j)) / sum) * spread(fraction(j));
     }
   };
   inertia(Mechanical::rigid_inertia, v(motor_inertia) + v(gear_inertia), 1.0 / sum, -1);
   for (Index i = 0; i < mode_count(); ++i) {
-    inertia(Mechanical::inertia(i), 0.0, v(share(i)) / sum, i);
+    inertia(Mechanical::inertia(i), 0.0, v(fraction(i)) / sum, i);
     const Index row = Mechanical::frequency(i);
     c.values(row) = two_pi * v(frequency(i));
     c.by_point(row, frequency(i)) = c.values(row) * spread(frequency(i));

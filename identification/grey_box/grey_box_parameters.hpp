@@ -69,7 +69,7 @@ class GreyBoxParameters {
     command_gain,  // opening per rate command, where the rate command drives the valve
     modes          // inertia fraction and frequency of each mode of the locked rotor
   };
-  static Eigen::Index share(Eigen::Index mode) { return modes + 2 * mode; }
+  static Eigen::Index fraction(Eigen::Index mode) { return modes + 2 * mode; }
   static Eigen::Index frequency(Eigen::Index mode) { return modes + 2 * mode + 1; }
 
   /// Sets the priors: from drawings and instruments of the campaign; for the bulk modulus from

@@ -22,7 +22,7 @@ double leakage_conductance(const VectorXd& v) {
 }
 
 // Moves what is one number for a drive that moves one way from the friction's level to the offset.
-void share_one_way(double one_way, double normal, DriveEstimate& e) {
+void fraction_one_way(double one_way, double normal, DriveEstimate& e) {
   if (one_way == 0.0) return;
   // No friction drives: the level stays above nothing.
   const double moved = std::min(std::abs(one_way) * normal, 0.98 * e.coulomb_level);
@@ -100,10 +100,10 @@ DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const VectorXd
   e.mode_inertia.resize(modes);
   e.mode_frequency.resize(modes);
   double sum = 1.0;
-  for (Index i = 0; i < modes; ++i) sum += v(P::share(i));
+  for (Index i = 0; i < modes; ++i) sum += v(P::fraction(i));
   e.rigid_inertia = e.inertia;
   for (Index i = 0; i < modes; ++i) {
-    e.mode_inertia(i) = v(P::antenna_inertia) * v(P::share(i)) / sum;
+    e.mode_inertia(i) = v(P::antenna_inertia) * v(P::fraction(i)) / sum;
     e.mode_frequency(i) = v(P::frequency(i));
     e.rigid_inertia -= e.mode_inertia(i);
   }
@@ -111,12 +111,12 @@ DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const VectorXd
   return e;
 }
 
-std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
-                                           const GreyBoxPosterior& posterior, int count,
-                                           std::uint64_t seed) {
+std::vector<DriveEstimate> posterior_samples(const GreyBoxParameters& parameters,
+                                             const GreyBoxPosterior& posterior, int count,
+                                             std::uint64_t seed) {
   const MatrixXd root = numerics::semidefinite_factor(posterior.covariance, "posterior covariance");
-  std::vector<DriveEstimate> draws;
-  draws.reserve(static_cast<std::size_t>(count));
+  std::vector<DriveEstimate> random_samples;
+  random_samples.reserve(static_cast<std::size_t>(count));
   VectorXd normal(root.cols() + (root.cols() % 2));
   for (int i = 0; i < count; ++i) {
     const numerics::NormalNumbers numbers(seed, static_cast<std::uint64_t>(i));
@@ -151,15 +151,15 @@ std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
     e.valve_lag *= std::exp(posterior.lag_discrepancy * valve.real());
     const auto doubts = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 3U);
     e.offset_as_recorded += posterior.offset_discrepancy * oil.imag();
-    share_one_way(posterior.one_way, doubts.real(), e);
+    fraction_one_way(posterior.one_way, doubts.real(), e);
     const double saturating = std::exp(posterior.unsaturated * doubts.imag());
     e.coulomb_level += (saturating - 1.0) * e.friction.saturating_torque;
     e.friction.saturating_torque *= saturating;
     e.friction.saturating_rate *= saturating;
     e.tracking_slope = plant::friction_slope(e.friction, parameters.tracking_rate());
-    draws.push_back(std::move(e));
+    random_samples.push_back(std::move(e));
   }
-  return draws;
+  return random_samples;
 }
 
 const std::vector<DriveQuantity>& drive_quantities() {

@@ -97,9 +97,9 @@ GreyBoxPosterior grey_box_posterior(const GreyBoxObjective& objective, const Eig
 DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const Eigen::VectorXd& point);
 
 /// Samples from the posterior, discrepancies included; deterministic by seed.
-std::vector<DriveEstimate> posterior_draws(const GreyBoxParameters& parameters,
-                                           const GreyBoxPosterior& posterior, int count,
-                                           std::uint64_t seed);
+std::vector<DriveEstimate> posterior_samples(const GreyBoxParameters& parameters,
+                                             const GreyBoxPosterior& posterior, int count,
+                                             std::uint64_t seed);
 
 /// A number of an estimate by name.
 struct DriveQuantity {

@@ -14,7 +14,7 @@ namespace {
 
 using plant::set_to;
 
-constexpr std::size_t most_draws = 400;  // for a standard uncertainty
+constexpr std::size_t max_random_samples = 400;  // for a standard uncertainty
 
 // Reflected to the motor shaft; not positive where motors and gear train take all of it.
 double antenna_inertia_left(const plant::Antenna& antenna, const DriveEstimate& estimate) {
@@ -149,7 +149,7 @@ std::vector<plant::AntennaChange> identified_changes(const plant::Antenna& anten
 
 std::vector<IdentifiedNumber> identified_numbers(const plant::Antenna& antenna,
                                                  const DriveEstimate& estimate,
-                                                 const std::vector<DriveEstimate>& draws,
+                                                 const std::vector<DriveEstimate>& random_samples,
                                                  const IdentifiedParts& parts) {
   std::vector<IdentifiedNumber> numbers;
   for (const auto& change : identified_changes(antenna, estimate, parts)) {
@@ -158,8 +158,8 @@ std::vector<IdentifiedNumber> identified_numbers(const plant::Antenna& antenna,
     }
   }
   std::size_t used = 0;
-  for (const auto& draw : draws) {
-    if (used == most_draws) break;
+  for (const auto& draw : random_samples) {
+    if (used == max_random_samples) break;
     if (!(antenna_inertia_left(antenna, draw) > 0.0)) continue;
     ++used;
     for (const auto& change : identified_changes(antenna, draw, parts)) {

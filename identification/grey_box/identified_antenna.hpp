@@ -50,7 +50,7 @@ struct IdentifiedNumber {
 };
 std::vector<IdentifiedNumber> identified_numbers(const plant::Antenna& antenna,
                                                  const DriveEstimate& estimate,
-                                                 const std::vector<DriveEstimate>& draws,
+                                                 const std::vector<DriveEstimate>& random_samples,
                                                  const IdentifiedParts& parts = {});
 
 }  // namespace boresight::identification

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include <boresight/identification/impulse/impulse_draws.hpp>
 #include <boresight/identification/impulse/impulse_momentum.hpp>
+#include <boresight/identification/impulse/impulse_samples.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::identification {
@@ -25,11 +25,11 @@ void check(const Campaign& campaign, const ImpulseMomentumOptions& options) {
           motors, record.inlet_pressure.size(), record.outlet_pressure.size(), record.name));
     }
   }
-  if (options.draws < 20 || !(options.shortening >= 0.0) || !(options.shortening < 0.2)) {
-    throw InvalidInput(
-        fmt::format("impulse_momentum: expected at least 20 draws and a shortening from 0 to below "
-                    "0.2, found {} and {}",
-                    options.draws, options.shortening));
+  if (options.random_samples < 20 || !(options.shortening >= 0.0) || !(options.shortening < 0.2)) {
+    throw InvalidInput(fmt::format(
+        "impulse_momentum: expected at least 20 samples and a shortening from 0 to below "
+        "0.2, found {} and {}",
+        options.random_samples, options.shortening));
   }
 }
 
@@ -134,7 +134,7 @@ ImpulseMomentum impulse_momentum(const Campaign& campaign, const ImpulseMomentum
   result.friction = attempt<FrictionCurveFit>(
       [&] { return fit_friction_curve(campaign, start, options.curve); }, result.notes);
   FrictionTestOptions tests = options.tests;
-  tests.draws = options.draws;
+  tests.random_samples = options.random_samples;
   tests.seed = options.seed;
   const numerics::Uncertain inertia =
       result.friction ? numerics::Uncertain{result.friction->inertia,
@@ -144,16 +144,16 @@ ImpulseMomentum impulse_momentum(const Campaign& campaign, const ImpulseMomentum
       [&] { return constant_speed_tests(campaign, inertia, tests); }, result.notes);
   result.slow_ramp =
       attempt<SlowRampTests>([&] { return slow_ramp_tests(campaign, tests); }, result.notes);
-  const ImpulseDraws draws(campaign, options, result);
+  const ImpulseSamples random_samples(campaign, options, result);
   const auto every = impulse_windows(campaign, options.windows);
   for (const auto& [rule, treatment, name] : procedures) {
-    if (!draws.has(treatment)) continue;
+    if (!random_samples.has(treatment)) continue;
     const auto windows = windows_of(rule, campaign, every);
     if (windows.empty()) {
       result.notes.push_back(fmt::format("No windows for: {}.", name));
       continue;
     }
-    ImpulseEstimate estimate = draws.estimate(rule, treatment, windows);
+    ImpulseEstimate estimate = random_samples.estimate(rule, treatment, windows);
     estimate.name = name;
     if (!std::isfinite(estimate.inertia.value)) {
       result.notes.push_back(fmt::format("No change of speed in the windows for: {}.", name));
@@ -162,7 +162,7 @@ ImpulseMomentum impulse_momentum(const Campaign& campaign, const ImpulseMomentum
     result.estimates.push_back(std::move(estimate));
   }
   if (result.friction) {
-    result.estimates.push_back(draws.whole_records());
+    result.estimates.push_back(random_samples.whole_records());
     result.best = result.estimates.size() - 1;
   } else {
     for (std::size_t i = 0; i < result.estimates.size(); ++i) {

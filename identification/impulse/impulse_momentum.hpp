@@ -30,9 +30,9 @@ enum class FrictionTreatment {
 };
 
 /// Fraction of an estimate's variance due to one source.
-struct VarianceShare {
+struct VarianceFraction {
   std::string source;
-  double share = 0.0;
+  double fraction = 0.0;
 };
 
 /// Reflected inertia by one rule and one treatment.
@@ -45,7 +45,7 @@ struct ImpulseEstimate {
   numerics::Interval inertia;
   /// The same for torque and rate as recorded, without these errors.
   numerics::Interval as_recorded;
-  std::vector<VarianceShare> shares;  // largest first
+  std::vector<VarianceFraction> fractions;  // largest first
   std::vector<WindowImpulse> windows;
   /// By each window alone, kg m2.
   std::vector<double> by_window;
@@ -59,7 +59,8 @@ struct ImpulseMomentumOptions {
   FrictionTestOptions tests;
   FrictionCurveOptions curve;
   ImpulseWindowOptions windows;
-  int draws = 400;  // of the Monte Carlo; the tests' own number and seed are replaced by these
+  int random_samples =
+      400;  // of the Monte Carlo; the tests' own number and seed are replaced by these
   std::uint64_t seed = 1;
   /// In the samples, windows are shortened at either end by 0, 1 or 2 times this fraction.
   double shortening = 0.05;

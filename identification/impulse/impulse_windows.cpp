@@ -172,9 +172,9 @@ std::vector<ImpulseWindow> common_path(const Campaign& campaign,
           (ramps_only && campaign.records[one.record].test != TestKind::fast_ramp)) {
         continue;
       }
-      const Eigen::Index least =
+      const Eigen::Index minimum =
           shortest_speed_window(campaign.records[one.record].sample_time, same_path_smoothing);
-      if (one.window.last - one.window.first + 1 < least) continue;
+      if (one.window.last - one.window.first + 1 < minimum) continue;
       chosen.push_back(one);
       largest = std::max(largest, std::abs(one.to_rate - one.from_rate));
     }

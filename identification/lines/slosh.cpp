@@ -74,7 +74,7 @@ struct PortFit {
   Index first = 0;
 };
 
-double invalid_share(const Signal& signal, Index first, Index samples) {
+double invalid_fraction(const Signal& signal, Index first, Index samples) {
   if (signal.valid.empty()) return 0.0;
   const auto begin = signal.valid.begin() + first;
   return static_cast<double>(std::count(begin, begin + samples, false)) /
@@ -140,7 +140,8 @@ std::vector<PortFit> fit_event(const DriveRecord& record, const std::vector<Port
   };
   // Alone over the longest window, to see how long each rings.
   for (std::size_t k = 0; k < ports.size(); ++k) {
-    if (invalid_share(*ports[k].pressure, window.first, window.samples) > options.invalid_share) {
+    if (invalid_fraction(*ports[k].pressure, window.first, window.samples) >
+        options.invalid_fraction) {
       continue;
     }
     const Eigen::MatrixXd pressure =

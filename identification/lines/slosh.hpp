@@ -52,7 +52,7 @@ struct SloshOptions {
   double lowest_frequency = 15.0;
   double highest_frequency = 150.0;
   /// Ratio of ringing after to before that defines an event.
-  double least_ringing_ratio = 1.6;
+  double min_ringing_ratio = 1.6;
   /// The fit begins this many periods of the band's centre after an event, when the valve has
   /// stopped, ...
   double settling_periods = 2.5;
@@ -61,7 +61,7 @@ struct SloshOptions {
   double longest_window = 1.2;
   double largest_damping_ratio = 0.1;
   /// Fraction of samples of a window that may be invalid.
-  double invalid_share = 0.02;
+  double invalid_fraction = 0.02;
 };
 
 /// Sommerville's assignment (section III.A): of all ports' frequencies the highest belongs to the

@@ -71,12 +71,13 @@ std::vector<SloshEvent> slosh_events(const DriveRecord& record, double lowest, d
   for (Index i = span; i < after.size(); ++i) {
     if (after(i) > 0.03 * loudest) rise(i) = after(i) / std::max(after(i - span), quiet);
   }
-  const double least = options.least_ringing_ratio * options.least_ringing_ratio;
+  const double minimum = options.min_ringing_ratio * options.min_ringing_ratio;
   for (Index i = span; i < rise.size(); ++i) {
     const Index from = std::max(i - 2 * span, Index{0});
     const Index count = std::min(i + 2 * span, rise.size() - 1) - from + 1;
     Index top = 0;
-    if (rise(i) < least || rise.segment(from, count).maxCoeff(&top) > rise(i) || from + top != i) {
+    if (rise(i) < minimum || rise.segment(from, count).maxCoeff(&top) > rise(i) ||
+        from + top != i) {
       continue;
     }
     // The filter looks half a period ahead.

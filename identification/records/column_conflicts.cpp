@@ -8,7 +8,7 @@
 namespace boresight::identification {
 namespace {
 
-bool in_motion(const JudgedRecord& one) {
+bool in_motion(const EvaluatedRecord& one) {
   return one.clean->record && one.clean->record->test != TestKind::slosh &&
          !one.clean->without_rate;
 }
@@ -21,8 +21,8 @@ bool among(const std::vector<std::size_t>& motors, std::size_t motor) {
 class Votes {
  public:
   template <typename Said>
-  Votes(const std::vector<JudgedRecord>& records, const Said& said) {
-    for (const JudgedRecord& one : records) {
+  Votes(const std::vector<EvaluatedRecord>& records, const Said& said) {
+    for (const EvaluatedRecord& one : records) {
       if (!in_motion(one)) continue;
       ++all_;
       if (!said(one)) continue;
@@ -30,7 +30,7 @@ class Votes {
       if (first_.empty()) first_ = one.raw->name;
     }
   }
-  bool carried() const { return count_ > 0 && 2 * count_ >= all_; }
+  bool active() const { return count_ > 0 && 2 * count_ >= all_; }
   std::string where() const {
     return fmt::format("{} of {} records in motion, '{}' first", count_, all_, first_);
   }
@@ -76,18 +76,18 @@ std::string torque_refusal(const RawRecord& raw, const Votes& votes) {
 }
 
 // Motors that the campaign shows to be exchanged.
-std::vector<std::size_t> exchanged_motors(const std::vector<JudgedRecord>& records,
+std::vector<std::size_t> exchanged_motors(const std::vector<EvaluatedRecord>& records,
                                           ColumnConflicts& conflicts) {
   std::vector<std::size_t> exchanged;
   const std::size_t motors = records.front().raw->inlet.size();
   for (std::size_t motor = 0; motor < motors; ++motor) {
-    const Votes votes(records, [motor](const JudgedRecord& one) {
+    const Votes votes(records, [motor](const EvaluatedRecord& one) {
       return among(one.clean->suspicions.exchanged_motors, motor);
     });
-    if (votes.carried()) exchanged.push_back(motor);
+    if (votes.active()) exchanged.push_back(motor);
   }
   if (!exchanged.empty() && 2 * exchanged.size() >= motors) {
-    const Votes votes(records, [&](const JudgedRecord& one) {
+    const Votes votes(records, [&](const EvaluatedRecord& one) {
       return among(one.clean->suspicions.exchanged_motors, exchanged.front());
     });
     conflicts.refusal = exchanged_refusal(*records.front().raw, exchanged, votes);
@@ -95,8 +95,8 @@ std::vector<std::size_t> exchanged_motors(const std::vector<JudgedRecord>& recor
   return exchanged;
 }
 
-void judge_ports(const JudgedRecord& one, const std::vector<std::size_t>& everywhere,
-                 RecordConflict& conflict) {
+void evaluate_ports(const EvaluatedRecord& one, const std::vector<std::size_t>& everywhere,
+                    RecordConflict& conflict) {
   const auto& own = one.clean->suspicions.exchanged_motors;
   const auto& exchanged = everywhere.empty() ? own : everywhere;
   if (exchanged.empty()) return;
@@ -110,25 +110,26 @@ void judge_ports(const JudgedRecord& one, const std::vector<std::size_t>& everyw
 
 // Whether a command is against the tachometer in most of the records that have it.
 template <typename Command, typename Against>
-bool against_everywhere(const std::vector<JudgedRecord>& records, const Command& command,
+bool against_everywhere(const std::vector<EvaluatedRecord>& records, const Command& command,
                         const Against& against) {
-  std::vector<JudgedRecord> having;
-  for (const JudgedRecord& one : records) {
+  std::vector<EvaluatedRecord> having;
+  for (const EvaluatedRecord& one : records) {
     if (one.raw->*command) having.push_back(one);
   }
-  return Votes(having, [&](const JudgedRecord& one) { return one.clean->suspicions.*against; })
-      .carried();
+  return Votes(having, [&](const EvaluatedRecord& one) { return one.clean->suspicions.*against; })
+      .active();
 }
 
 }  // namespace
 
-ColumnConflicts column_conflicts(const std::vector<JudgedRecord>& records) {
+ColumnConflicts column_conflicts(const std::vector<EvaluatedRecord>& records) {
   ColumnConflicts conflicts;
   conflicts.records.resize(records.size());
   if (records.empty()) return conflicts;
   const auto exchanged = exchanged_motors(records, conflicts);
-  const Votes torque(records, [](const JudgedRecord& one) { return one.clean->suspicions.torque; });
-  if (conflicts.refusal.empty() && torque.carried()) {
+  const Votes torque(records,
+                     [](const EvaluatedRecord& one) { return one.clean->suspicions.torque; });
+  if (conflicts.refusal.empty() && torque.active()) {
     conflicts.refusal = torque_refusal(*records.front().raw, torque);
   }
   if (!conflicts.refusal.empty()) return conflicts;
@@ -137,13 +138,13 @@ ColumnConflicts column_conflicts(const std::vector<JudgedRecord>& records) {
   const bool no_valve_command =
       against_everywhere(records, &RawRecord::valve_command, &ColumnSuspicions::valve_command);
   for (std::size_t i = 0; i < records.size(); ++i) {
-    const JudgedRecord& one = records[i];
+    const EvaluatedRecord& one = records[i];
     if (!one.clean->record) continue;
     RecordConflict& conflict = conflicts.records[i];
     const ColumnSuspicions& own = one.clean->suspicions;
     // What a slosh test shows of directions is one blow of the valve: nothing to go by.
     const bool moving = in_motion(one);
-    if (moving || !exchanged.empty()) judge_ports(one, exchanged, conflict);
+    if (moving || !exchanged.empty()) evaluate_ports(one, exchanged, conflict);
     if (moving && own.torque && !conflict.again) conflict.refusal = against_motion;
     conflict.options.leave_out_rate_command =
         one.raw->rate_command && (no_rate_command || (moving && own.rate_command));

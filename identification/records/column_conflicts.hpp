@@ -8,7 +8,7 @@
 namespace boresight::identification {
 
 /// A record with what cleaning it has shown.
-struct JudgedRecord {
+struct EvaluatedRecord {
   const RawRecord* raw = nullptr;
   const CleanRecord* clean = nullptr;
 };
@@ -39,6 +39,6 @@ struct ColumnConflicts {
 /// record are refused. So they are where the torque works against the motion: the tachometer's sign
 /// is turned, or all inlets and outlets are exchanged. A command against the tachometer alone is
 /// left out.
-ColumnConflicts column_conflicts(const std::vector<JudgedRecord>& records);
+ColumnConflicts column_conflicts(const std::vector<EvaluatedRecord>& records);
 
 }  // namespace boresight::identification

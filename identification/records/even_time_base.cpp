@@ -336,9 +336,9 @@ void bridge(Signal& signal) {
       } else if (i == count) {
         signal.values[k] = signal.values[before];
       } else {
-        const double share = static_cast<double>(k - before) / static_cast<double>(i - before);
+        const double fraction = static_cast<double>(k - before) / static_cast<double>(i - before);
         signal.values[k] =
-            signal.values[before] + share * (signal.values[i] - signal.values[before]);
+            signal.values[before] + fraction * (signal.values[i] - signal.values[before]);
       }
     }
     before = i;
@@ -371,8 +371,8 @@ Signal on_time_base(const EvenTimeBase& base, const Eigen::VectorXd& values) {
       const double step = base.times[row + 1] - base.times[row];
       const double left = values[base.rows[row]];
       const double right = values[base.rows[row + 1]];
-      const double share = (time - base.times[row]) / step;
-      const double value = left + share * (right - left);
+      const double fraction = (time - base.times[row]) / step;
+      const double value = left + fraction * (right - left);
       if (step > base.longest_step || !std::isfinite(value)) continue;
       signal.values[i] = value;
       signal.valid[static_cast<std::size_t>(i)] = true;

@@ -166,7 +166,7 @@ class Cleaner {
         };
         if (2 * finite_count(channel.values) < channel.values.size()) {
           because(DefectKind::dead_channel, "more than half of it is missing", "");
-        } else if (spread(channel.values) < options_.dead_share * usual) {
+        } else if (spread(channel.values) < options_.dead_fraction * usual) {
           because(DefectKind::dead_channel, "hardly moves while others do", "");
         } else if (is_reversed(channel)) {
           because(DefectKind::reversed_sign, "a pressure below zero most of the time",

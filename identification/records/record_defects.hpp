@@ -87,7 +87,7 @@ struct DefectOptions {
   /// Times within this fraction of the sample time count as lying on the even grid.
   double jitter_tolerance = 0.02;
   /// A pressure that moves less than this fraction of the others' motion counts as dead.
-  double dead_share = 0.02;
+  double dead_fraction = 0.02;
   /// Motors (from 0) whose ports are exchanged according to the campaign as a whole. Both pressures
   /// are replaced like dead ones (ColumnConflicts).
   std::vector<std::size_t> exchanged_motors;

@@ -18,8 +18,8 @@ bool is_driven(const Signal& command, double fastest) {
 
 // As many samples as a time has, but no more than a fiftieth of the record.
 Index block_width(const DriveRecord& record, double time) {
-  const double most = static_cast<double>(record.samples()) / 50.0;
-  return std::max<Index>(1, static_cast<Index>(std::min(most, time / record.sample_time)));
+  const double maximum = static_cast<double>(record.samples()) / 50.0;
+  return std::max<Index>(1, static_cast<Index>(std::min(maximum, time / record.sample_time)));
 }
 
 // Means over `width` samples each: noise and single samples out of the way.
@@ -31,11 +31,11 @@ Eigen::VectorXd block_means(const Eigen::VectorXd& values, Index width) {
 
 // Share of the samples within a twentieth of the range of one of two levels, the extremes' inner
 // neighbours.
-double share_at_two_levels(const Eigen::VectorXd& values) {
+double fraction_at_two_levels(const Eigen::VectorXd& values) {
   std::vector<double> sorted(values.data(), values.data() + values.size());
   std::sort(sorted.begin(), sorted.end());
-  const auto at = [&](double share) {
-    return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
+  const auto at = [&](double fraction) {
+    return sorted[static_cast<std::size_t>(fraction * static_cast<double>(sorted.size() - 1))];
   };
   const double low = at(0.15);
   const double high = at(0.85);
@@ -93,7 +93,7 @@ TestKind of_valve(const DriveRecord& record, const Eigen::VectorXd& valve) {
 }
 
 TestKind of_rate(const Eigen::VectorXd& rate, double fastest) {
-  if (share_at_two_levels(rate) > 0.6) return TestKind::constant_speed;
+  if (fraction_at_two_levels(rate) > 0.6) return TestKind::constant_speed;
   return largest(rate) < 0.15 * fastest ? TestKind::slow_ramp : TestKind::fast_ramp;
 }
 

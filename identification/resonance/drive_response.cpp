@@ -32,12 +32,12 @@ ExcitedBand excited_band(const WindowedTransforms& rate, double rate_noise, doub
   }
   Index top = 0;
   const double peak = smooth.maxCoeff(&top);
-  const double least = std::max(0.003 * peak, 6.0 * rate_noise);
+  const double minimum = std::max(0.003 * peak, 6.0 * rate_noise);
   Index low = top, high = top;
-  while (low > half && smooth(low - 1) > least) --low;
+  while (low > half && smooth(low - 1) > minimum) --low;
   // An anti-resonance is not the end: look past it by half an octave.
   for (Index k = top; k < std::min<Index>(smooth.size(), 3 * high / 2 + 2); ++k) {
-    if (smooth(k) > least) high = k;
+    if (smooth(k) > minimum) high = k;
   }
   return {static_cast<double>(low) * bin, static_cast<double>(high) * bin};
 }
@@ -114,8 +114,7 @@ DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign
   const auto& locked = knowledge.locked_rotor_frequencies;
   double highest = options.highest_frequency > 0.0 ? options.highest_frequency : excited.highest;
   if (!(options.highest_frequency > 0.0) && !locked.empty()) {
-    highest =
-        std::min(highest, 1.6 * locked[std::min(locked.size(), options.most_modes) - 1].value);
+    highest = std::min(highest, 1.6 * locked[std::min(locked.size(), options.max_modes) - 1].value);
   }
   const double lowest = options.lowest_frequency > 0.0 ? options.lowest_frequency
                                                        : std::max(1.5 * excited.lowest, 8.0 * bin);
@@ -132,7 +131,7 @@ DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign
   const auto fit_over = [&](double low, double high, double above_band) {
     std::vector<double> centres;
     for (const auto& mode : locked) {
-      if (mode.value < 0.9 * high && centres.size() < options.most_modes) {
+      if (mode.value < 0.9 * high && centres.size() < options.max_modes) {
         centres.push_back(mode.value);
       }
     }

@@ -54,7 +54,7 @@ struct DriveResponseOptions {
   double lowest_frequency = 0.0;
   double highest_frequency = 0.0;
   /// Largest number of the knowledge's locked-rotor frequencies that are fitted.
-  std::size_t most_modes = 3;
+  std::size_t max_modes = 3;
   /// Largest relative difference of a locked-rotor frequency from the structural model's.
   double frequency_tolerance = 0.25;
 };

@@ -216,7 +216,7 @@ void choose(const Campaign& campaign, ResonanceResult& result) {
 
 // The flexible drive's lowest mode over the rigid one's: K = w^2 (Jm + (J - Jm) A(j w)).
 double coupled_over_rigid(const DriveKnowledge& knowledge, double stiffness, double inertia,
-                          double share) {
+                          double fraction) {
   const auto& locked = knowledge.locked_rotor_frequencies;
   const double motor_side =
       knowledge.motor_count * knowledge.motor_inertia.value + knowledge.gear_inertia.value;
@@ -225,8 +225,9 @@ double coupled_over_rigid(const DriveKnowledge& knowledge, double stiffness, dou
   double low = 0.0, high = std::min(rigid, 0.999 * two_pi * locked.front().value);
   for (int round = 0; round < 60; ++round) {
     const double w = 0.5 * (low + high);
-    const double dynamic = motor_side + (inertia - motor_side) *
-                                            flexible_amplification({0.0, w}, locked, share).real();
+    const double dynamic =
+        motor_side +
+        (inertia - motor_side) * flexible_amplification({0.0, w}, locked, fraction).real();
     (w * w * dynamic < stiffness ? low : high) = w;
   }
   return low / rigid;
@@ -241,7 +242,7 @@ void explain(const Campaign& campaign, const ResonanceOptions& options, Resonanc
   }
   const double inertia = result.best->inertia.value;
   result.coupled_over_rigid = coupled_over_rigid(knowledge, result.stiffness.value, inertia,
-                                                 options.lowest_mode_share.value);
+                                                 options.lowest_mode_fraction.value);
   if (knowledge.locked_rotor_frequencies.empty()) {
     notes.emplace_back(
         "no locked-rotor frequency is given: the structure counts as rigid, and an inertia from "
@@ -306,7 +307,7 @@ void explain(const Campaign& campaign, const ResonanceOptions& options, Resonanc
 
 std::complex<double> flexible_amplification(
     std::complex<double> s, const std::vector<numerics::Uncertain>& locked_rotor_frequencies,
-    double lowest_mode_share) {
+    double lowest_mode_fraction) {
   const auto& locked = locked_rotor_frequencies;
   if (locked.empty()) return 1.0;
   const auto factor = [&s](double frequency) {
@@ -314,7 +315,7 @@ std::complex<double> flexible_amplification(
     return 1.0 / (1.0 + x * x);
   };
   const std::complex<double> rest = locked.size() > 1 ? factor(locked[1].value) : 1.0;
-  return lowest_mode_share * factor(locked.front().value) + (1.0 - lowest_mode_share) * rest;
+  return lowest_mode_fraction * factor(locked.front().value) + (1.0 - lowest_mode_fraction) * rest;
 }
 
 numerics::Interval oil_stiffness(const DriveKnowledge& knowledge,

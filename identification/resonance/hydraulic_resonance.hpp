@@ -46,7 +46,7 @@ struct InertiaReading {
 struct ResonanceOptions {
   /// Fraction of the load's inertia behind the structure that moves with its lowest mode; the rest
   /// moves with the second. Used if no record shows it.
-  numerics::Uncertain lowest_mode_share{0.85, 0.09};
+  numerics::Uncertain lowest_mode_fraction{0.85, 0.09};
   /// Slope of friction at the speed of the valve steps, N m s/rad, if known from another test.
   /// Leakage then also follows from the rings' damping alone.
   std::optional<numerics::Uncertain> friction_slope;
@@ -97,6 +97,6 @@ ResonanceResult identify_resonance(const Campaign& campaign, const numerics::Int
 /// on undamped springs: sum of f_k/(1 + (s/w_k)^2), f_k the inertia fractions.
 std::complex<double> flexible_amplification(
     std::complex<double> s, const std::vector<numerics::Uncertain>& locked_rotor_frequencies,
-    double lowest_mode_share);
+    double lowest_mode_fraction);
 
 }  // namespace boresight::identification

@@ -130,9 +130,9 @@ void drop_strangers(StepRings& result) {
   }
   const double usual = numerics::median(frequencies);
   const double spread = 1.4826 * numerics::median(VectorXd((frequencies.array() - usual).abs()));
-  const double most = std::max(5.0 * spread, 0.03 * usual);
+  const double maximum = std::max(5.0 * spread, 0.03 * usual);
   std::erase_if(result.rings, [&](const StepRing& ring) {
-    const bool strange = std::abs(ring.frequency.value - usual) > most;
+    const bool strange = std::abs(ring.frequency.value - usual) > maximum;
     if (strange) {
       result.notes.push_back(fmt::format(
           "step at {:.2f} s left out: it rings at {:.3f} Hz, the others about {:.3f} Hz", ring.time,
@@ -154,7 +154,7 @@ std::vector<double> valve_step_times(const DriveRecord& record, const DriveKnowl
   if (signal.size() < 4 * span) return times;
   const VectorXd change = mean_change(signal, span).cwiseAbs();
   // 1.4826 times the median of |x| is a normal's standard deviation.
-  const double least =
+  const double minimum =
       threshold * std::max(1.4826 * numerics::median(change), 1e-9 * change.maxCoeff());
   const Index apart = 6 * span;
   for (Index i = span; i + span < change.size(); ++i) {
@@ -165,7 +165,7 @@ std::vector<double> valve_step_times(const DriveRecord& record, const DriveKnowl
     // Of a step nothing is left two spans away; of a ramp all.
     const double beside = std::max(change(std::max<Index>(i - 2 * span, 0)),
                                    change(std::min<Index>(i + 2 * span, change.size() - 1)));
-    if (change(i) >= std::max(least, 3.0 * beside) && largest <= change(i) && from + top == i) {
+    if (change(i) >= std::max(minimum, 3.0 * beside) && largest <= change(i) && from + top == i) {
       times.push_back(static_cast<double>(i) * record.sample_time);
     }
   }
@@ -182,13 +182,13 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
         expected, stiffness));
   }
   const auto& knowledge = campaign.knowledge;
-  if (!(options.highest_share * expected < 0.45 / record.sample_time)) {
+  if (!(options.highest_fraction * expected < 0.45 / record.sample_time)) {
     throw NumericalFailure(
         fmt::format("fit_step_rings: record '{}' has {:.3g} samples/s; a ringing up to {:.3g} Hz "
                     "needs more than "
                     "{:.3g}",
-                    record.name, 1.0 / record.sample_time, options.highest_share * expected,
-                    options.highest_share * expected / 0.45));
+                    record.name, 1.0 / record.sample_time, options.highest_fraction * expected,
+                    options.highest_fraction * expected / 0.45));
   }
   const double dt = record.sample_time;
   const VectorXd torque = recorded_torque(record, knowledge);
@@ -216,12 +216,12 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
     Eigen::MatrixXd signals(window.samples, 2);
     signals.col(0) = torque.segment(window.first, window.samples);
     signals.col(1) = record.motor_rate.values.segment(window.first, window.samples);
-    auto starts = ring_starts(signals, dt, 1, options.lowest_share * expected,
-                              options.highest_share * expected);
+    auto starts = ring_starts(signals, dt, 1, options.lowest_fraction * expected,
+                              options.highest_fraction * expected);
     if (starts.empty()) starts.push_back({expected, 0.2 * two_pi * expected});
     RingFitOptions structural;
     structural.largest_damping_ratio = 0.1;
-    structural.low_frequency_limit = options.highest_share * expected;
+    structural.low_frequency_limit = options.highest_fraction * expected;
     const double lowest =
         locked.empty() ? 2.0 * expected
                        : std::max(0.9 * locked.front().value, structural.low_frequency_limit);
@@ -243,12 +243,12 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
     const RingFit fit = fit_damped_cosines(signals, dt, starts);
     const auto& mode = fit.modes.front();
     const double f = mode.natural_frequency.value;
-    if (!(f > options.lowest_share * expected) || !(f < options.highest_share * expected) ||
+    if (!(f > options.lowest_fraction * expected) || !(f < options.highest_fraction * expected) ||
         mode.natural_frequency.standard_uncertainty > 0.1 * f ||
         std::abs(mode.amplitude(0)) < 3.0 * fit.residual_rms(0)) {
       result.notes.push_back(fmt::format(
           "step at {:.2f} s left out: no ringing between {:.2f} and {:.2f} Hz stands out", times[k],
-          options.lowest_share * expected, options.highest_share * expected));
+          options.lowest_fraction * expected, options.highest_fraction * expected));
       continue;
     }
     StepRing ring;
@@ -289,8 +289,8 @@ StepRings fit_step_rings(const DriveRecord& record, const Campaign& campaign, do
     throw NumericalFailure(fmt::format(
         "fit_step_rings: none of {} steps of record '{}' leaves a ringing between {:.2f} and "
         "{:.2f} Hz about a moving operating point{}{}",
-        times.size(), record.name, options.lowest_share * expected,
-        options.highest_share * expected,
+        times.size(), record.name, options.lowest_fraction * expected,
+        options.highest_fraction * expected,
         result.notes.empty() ? "" : "; first: ", result.notes.empty() ? "" : result.notes.front()));
   }
   drop_strangers(result);

@@ -31,8 +31,8 @@ struct StepRing {
 struct StepRingOptions {
   /// Hz, expected frequency of the mode.
   double expected_frequency = 0.0;
-  double lowest_share = 0.5;  // of it: the search's band
-  double highest_share = 1.6;
+  double lowest_fraction = 0.5;  // of it: the search's band
+  double highest_fraction = 1.6;
   /// The fit begins this long after a step (s; at least a thirtieth of a period) ...
   double settling_time = 0.04;
   /// ... and lasts this many periods of the expected frequency.

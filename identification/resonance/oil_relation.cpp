@@ -139,9 +139,9 @@ double orifice_loss_rate(const DriveRecord& record, const DriveKnowledge& knowle
   // The valve feeds the inlets when the drive goes up, the outlets when it goes down.
   const double fed = mean_flow >= 0.0 ? inlet : outlet;
   const double drained = mean_flow >= 0.0 ? outlet : inlet;
-  const double least = 0.02 * (knowledge.supply_pressure - knowledge.return_pressure);
-  const double drop_in = std::max(knowledge.supply_pressure - fed, least);
-  const double drop_out = std::max(drained - knowledge.return_pressure, least);
+  const double minimum = 0.02 * (knowledge.supply_pressure - knowledge.return_pressure);
+  const double drop_in = std::max(knowledge.supply_pressure - fed, minimum);
+  const double drop_out = std::max(drained - knowledge.return_pressure, minimum);
   const double torque_per_difference = torque_per_pressure(knowledge) * knowledge.motor_count;
   return stiffness * std::abs(mean_flow) / (2.0 * torque_per_difference) * 0.5 *
          (0.5 / drop_in + 0.5 / drop_out);

@@ -19,7 +19,7 @@ using Complex = std::complex<double>;
 struct Common {
   double stiffness;
   double motor_side;  // kg m2
-  double lowest_share;
+  double lowest_fraction;
   std::vector<numerics::Uncertain> locked;
   double shape_scale = 1.0;  // of torque over rate
 };
@@ -40,7 +40,7 @@ double inertia_of(ResonanceReading reading, const StepRing& ring, const Common& 
   const Complex shape = reading == ResonanceReading::ring_shape
                             ? common.shape_scale * ring.torque_over_rate
                             : -common.stiffness / (s + loss);
-  const Complex a = flexible_amplification(s, common.locked, common.lowest_share);
+  const Complex a = flexible_amplification(s, common.locked, common.lowest_fraction);
   const Complex rest = shape - s * common.motor_side * (1.0 - a);
   return rest.imag() / (s * a).imag();
 }
@@ -85,7 +85,7 @@ numerics::Interval ring_inertia(ResonanceReading reading, const std::vector<Step
   const double motors = knowledge.motor_count;
   Common common{stiffness.value,
                 motors * knowledge.motor_inertia.value + knowledge.gear_inertia.value,
-                options.lowest_mode_share.value, knowledge.locked_rotor_frequencies, 1.0};
+                options.lowest_mode_fraction.value, knowledge.locked_rotor_frequencies, 1.0};
   const auto mean = [&](const Common& at) {
     return mean_over(rings, [&](const StepRing& ring) { return inertia_of(reading, ring, at); });
   };
@@ -103,7 +103,7 @@ numerics::Interval ring_inertia(ResonanceReading reading, const std::vector<Step
   add(common.stiffness, stiffness.standard_uncertainty);
   add(common.motor_side, std::hypot(motors * knowledge.motor_inertia.standard_uncertainty,
                                     knowledge.gear_inertia.standard_uncertainty));
-  add(common.lowest_share, -options.lowest_mode_share.standard_uncertainty);
+  add(common.lowest_fraction, -options.lowest_mode_fraction.standard_uncertainty);
   add(common.shape_scale, std::hypot(torque_scale_uncertainty(record, campaign),
                                      campaign.instruments.tachometer_scale));
   for (auto& mode : common.locked) add(mode.value, mode.standard_uncertainty);
@@ -127,7 +127,7 @@ numerics::Interval leakage_from_damping(const std::vector<StepRing>& rings,
     return mean_over(rings, [&](const StepRing& ring) {
       const Complex s = pole_of(ring);
       const Complex a = flexible_amplification(s, knowledge.locked_rotor_frequencies,
-                                               options.lowest_mode_share.value);
+                                               options.lowest_mode_fraction.value);
       const Complex motor = s * motor_side * (1.0 - a);
       double loss = ring.total_loss_rate;
       for (int round = 0; round < 200; ++round) {

@@ -123,7 +123,7 @@ TorqueSpectrum torque_spectrum(const DriveRecord& record, const DriveKnowledge& 
     peaks.highest = std::max(peaks.highest, knowledge.locked_rotor_frequencies.back().value);
   }
   peaks.highest = std::min(peaks.highest, 0.35 / record.sample_time);
-  peaks.least_over_background = 1.5;
+  peaks.min_over_background = 1.5;
   // The background over some three resolutions: what is between the harmonics.
   peaks.background_bins = 16;
   result.peaks = spectral_peaks(result.frequency, result.amplitude, peaks);
@@ -147,8 +147,8 @@ TorqueSpectrum torque_spectrum(const DriveRecord& record, const DriveKnowledge& 
         record.name));
   }
   for (const auto& peak : result.peaks) {
-    if (peak.frequency < options.lowest_share * expected ||
-        peak.frequency > options.highest_share * expected || peak.over_background < 3.0) {
+    if (peak.frequency < options.lowest_fraction * expected ||
+        peak.frequency > options.highest_fraction * expected || peak.over_background < 3.0) {
       continue;
     }
     if (const auto mode =
@@ -164,7 +164,7 @@ TorqueSpectrum torque_spectrum(const DriveRecord& record, const DriveKnowledge& 
   if (!result.chosen) {
     result.notes.push_back(fmt::format(
         "{}: no peak of the torque stands out between {:.2f} and {:.2f} Hz", record.name,
-        options.lowest_share * expected, options.highest_share * expected));
+        options.lowest_fraction * expected, options.highest_fraction * expected));
     return result;
   }
   const auto& peak = *result.chosen;

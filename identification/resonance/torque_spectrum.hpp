@@ -13,8 +13,8 @@ namespace boresight::identification {
 struct TorqueSpectrumOptions {
   /// Hz, where the hydraulic mode is expected.
   double expected_frequency = 0.0;
-  double lowest_share = 0.6;  // of it: the band in which the peak is chosen
-  double highest_share = 1.6;
+  double lowest_fraction = 0.6;  // of it: the band in which the peak is chosen
+  double highest_fraction = 1.6;
   /// A peak this near (relative) to a locked-rotor frequency is the structure's.
   double structural_tolerance = 0.08;
 };

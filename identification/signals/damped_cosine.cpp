@@ -55,8 +55,8 @@ VectorXd score_inflation(const MatrixXd& slope, const MatrixXd& weighted_residua
     }
     double total = score.squaredNorm();
     for (Index lag = 1; lag <= lags; ++lag) {
-      const double share = 1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1);
-      total += 2.0 * share * score.head(samples - lag).dot(score.tail(samples - lag));
+      const double fraction = 1.0 - static_cast<double>(lag) / static_cast<double>(lags + 1);
+      total += 2.0 * fraction * score.head(samples - lag).dot(score.tail(samples - lag));
     }
     inflation(k) = white > 0.0 ? std::sqrt(std::max(total / white, 1.0)) : 1.0;
   }

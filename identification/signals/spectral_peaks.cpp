@@ -39,8 +39,8 @@ std::optional<double> half_width(const VectorXd& power, Index peak, double heigh
   for (Index k = peak + side; k > 0 && k + 1 < power.size(); k += side) {
     const double here = power(k);
     if (here <= 0.5 * height) {
-      const double share = (before - 0.5 * height) / (before - here);
-      return static_cast<double>(std::abs(k - peak)) - 1.0 + share;
+      const double fraction = (before - 0.5 * height) / (before - here);
+      return static_cast<double>(std::abs(k - peak)) - 1.0 + fraction;
     }
     if (here > before) return std::nullopt;
     before = here;
@@ -76,14 +76,14 @@ std::vector<SpectralPeak> spectral_peaks(const VectorXd& frequency, const Vector
     if (frequency(k) < options.lowest || frequency(k) > highest) continue;
     if (!(power(k) > power(k - 1)) || !(power(k) >= power(k + 1))) continue;
     const double about = background(power, k, options.background_bins);
-    if (power(k) < options.least_over_background * about) continue;
-    const double least = 1e-300;
-    const Vertex top = vertex(std::log(std::max(power(k - 1), least)), std::log(power(k)),
-                              std::log(std::max(power(k + 1), least)));
+    if (power(k) < options.min_over_background * about) continue;
+    const double minimum = 1e-300;
+    const Vertex top = vertex(std::log(std::max(power(k - 1), minimum)), std::log(power(k)),
+                              std::log(std::max(power(k + 1), minimum)));
     SpectralPeak peak;
     peak.frequency = frequency(k) + top.offset * bin;
     peak.height = std::exp(top.height);
-    peak.over_background = about > 0.0 ? peak.height / about : peak.height / least;
+    peak.over_background = about > 0.0 ? peak.height / about : peak.height / minimum;
     const auto down = half_width(power, k, peak.height, -1);
     const auto up = half_width(power, k, peak.height, 1);
     if (down && up) peak.half_power_damping = 0.5 * (*down + *up) * bin / peak.frequency;
@@ -109,7 +109,7 @@ void label_harmonics(std::vector<SpectralPeak>& peaks, double period, double tol
 }
 
 std::optional<double> repetition_period(const VectorXd& signal, double sample_time,
-                                        double least_correlation) {
+                                        double min_correlation) {
   const Index samples = signal.size();
   if (samples < 16 || !signal.allFinite() || !(sample_time > 0.0)) {
     throw InvalidInput(fmt::format(
@@ -139,13 +139,13 @@ std::optional<double> repetition_period(const VectorXd& signal, double sample_ti
   while (first < longest && correlation(first) > 0.0) ++first;
   if (first + 2 >= longest) return std::nullopt;
   const double best = correlation.segment(first, longest - first).maxCoeff();
-  if (best < least_correlation) return std::nullopt;
+  if (best < min_correlation) return std::nullopt;
   // The first maximum as high as any: a signal that repeats after P does so after 2 P.
   Index at = 0;
   for (Index lag = first; lag + 1 < longest && at == 0; ++lag) {
     const Index from = std::max<Index>(first, lag * 3 / 4);
     const Index to = std::min<Index>(longest - 1, lag * 5 / 4 + 1);
-    if (correlation(lag) >= std::max(least_correlation, best - 0.1) &&
+    if (correlation(lag) >= std::max(min_correlation, best - 0.1) &&
         correlation(lag) >= correlation.segment(from, to - from + 1).maxCoeff()) {
       at = lag;
     }
@@ -160,7 +160,7 @@ std::optional<double> repetition_period(const VectorXd& signal, double sample_ti
     Index top = 0;
     correlation.segment(guess - reach, 2 * reach + 1).maxCoeff(&top);
     const Index place = guess - reach + top;
-    if (place < 1 || correlation(place) < 0.7 * least_correlation) break;
+    if (place < 1 || correlation(place) < 0.7 * min_correlation) break;
     const Vertex peak = vertex(correlation(place - 1), correlation(place), correlation(place + 1));
     period = (static_cast<double>(place) + peak.offset) / static_cast<double>(count);
   }

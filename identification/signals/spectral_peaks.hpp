@@ -25,7 +25,7 @@ struct PeakOptions {
   double lowest = 0.0;   // Hz
   double highest = 0.0;  // Hz; 0: to the spectrum's end
   /// A peak stands this far above the median of the spectrum about it ...
-  double least_over_background = 3.0;
+  double min_over_background = 3.0;
   /// ... over this many bins to each side.
   Eigen::Index background_bins = 40;
 };
@@ -46,9 +46,9 @@ void label_harmonics(std::vector<SpectralPeak>& peaks, double period, double tol
 
 /// Period (s) of a signal that repeats itself at least twice in the record: the first of the
 /// highest maxima of its autocorrelation, refined at the last repetition in the record. Nothing
-/// where no shift correlates with more than `least_correlation`.
+/// where no shift correlates with more than `min_correlation`.
 /// @throws InvalidInput for fewer than 16 samples, not finite ones or a sample time not positive.
 std::optional<double> repetition_period(const Eigen::VectorXd& signal, double sample_time,
-                                        double least_correlation = 0.6);
+                                        double min_correlation = 0.6);
 
 }  // namespace boresight::identification

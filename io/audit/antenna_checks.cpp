@@ -19,12 +19,12 @@ namespace boresight::io {
 void check_inertia_against_dish(const Case& antenna, PhysicalChecks& found) {
   constexpr double wide_factor = 10.0;
   const AntennaEntry& dish = *antenna.antenna;
-  const auto [least, most] = std::ranges::minmax(dss14_inertia_figures);
+  const auto [minimum, maximum] = std::ranges::minmax(dss14_inertia_figures);
   auto& check = begin_check(found, "inertia_against_dish", dish.inertia.key);
   check.add("inertia over diameter^5", dish.inertia.value / std::pow(dish.dish_diameter.value, 5),
-            "kg/m3", least / wide_factor, most * wide_factor);
-  check.add("least known", least, "kg/m3");
-  check.add("most known", most, "kg/m3");
+            "kg/m3", minimum / wide_factor, maximum * wide_factor);
+  check.add("least known", minimum, "kg/m3");
+  check.add("most known", maximum, "kg/m3");
 }
 
 void check_flywheels(const Case& antenna, PhysicalChecks& found) {
@@ -51,12 +51,13 @@ void check_carrier_frequencies(const Case& antenna, PhysicalChecks& found) {
   constexpr double widest_beam_deg = 5.0;
   const auto check = [&](const BandEntry& band, const Quantity& frequency) {
     const double wavelength = speed_of_light / frequency.value;
-    const double beam_deg =
+    const double boresight_deg =
         band.beamwidth_factor.value * wavelength / antenna.antenna->dish_diameter.value / degree;
     auto& one = begin_check(found, "carrier_frequency", "band." + band.name + ".frequency");
     one.entries = {{one.quantity, frequency.text, frequency.value}};
     one.add("wavelength", wavelength, "m");
-    one.add("beam width", beam_deg * degree, "rad", -design::unbounded, widest_beam_deg * degree);
+    one.add("beam width", boresight_deg * degree, "rad", -design::unbounded,
+            widest_beam_deg * degree);
   };
   for (const BandEntry& band : antenna.bands) {
     check(band, band.frequency);
@@ -73,14 +74,14 @@ void check_ensemble_ranges(const Case& antenna, PhysicalChecks& found) {
   auto& check = begin_check(found, "ensemble_range", "ensemble");
   const auto compare = [&](const std::optional<RangeEntry>& stated, const std::string& key,
                            const std::string& number, const design::Ends& range,
-                           const design::Ends& least, double scale) {
-    if (!stated || (range.lower <= least.lower && range.upper >= least.upper)) return;
+                           const design::Ends& minimum, double scale) {
+    if (!stated || (range.lower <= minimum.lower && range.upper >= minimum.upper)) return;
     if (check.entries.empty()) check.quantity = "ensemble." + key;
     check.holds = false;
     check.entries.push_back({"ensemble." + key, "", 0.0});
     check.entries.push_back({number, "", scale});
-    check.add(key + " lower", range.lower / scale, "1", -design::unbounded, least.lower / scale);
-    check.add(key + " upper", range.upper / scale, "1", least.upper / scale);
+    check.add(key + " lower", range.lower / scale, "1", -design::unbounded, minimum.lower / scale);
+    check.add(key + " upper", range.upper / scale, "1", minimum.upper / scale);
   };
   compare(ensemble.structure_frequency, "structure_frequency",
           antenna.structure->locked_rotor_frequency.key, ranges.structure_frequency,

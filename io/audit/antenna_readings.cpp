@@ -53,8 +53,8 @@ class Readings {
   // The inertia a test found, with motors and gear train kept and the antenna taking the rest.
   void add_test(ReadingKind kind, std::string name, double found, double stiffness) {
     const TestedInertia tested{found, fixed_inertia(), antenna_inertia(stated_)};
-    constexpr double least = 0.05;
-    if (tested.left() > least * tested.stated) {
+    constexpr double minimum = 0.05;
+    if (tested.left() > minimum * tested.stated) {
       AntennaReading& reading = add(kind, std::move(name),
                                     {plant::set_to("at_shaft.antenna_inertia", tested.left()),
                                      plant::set_to("at_shaft.oil_stiffness", stiffness)});
@@ -163,12 +163,12 @@ std::vector<AntennaReading> antenna_readings(const Case& antenna) {
                  fmt::format("antenna of gear spring {:.3g} N.m/rad", spring), antennas[i]);
   }
   for (const auto place : other_guesses) {
-    if (!moves_guessed_shares(*antenna.structure, place)) continue;
+    if (!moves_guessed_fractions(*antenna.structure, place)) continue;
     AntennaReading& reading =
-        readings.add(ReadingKind::guessed_shares, std::string(to_string(place)),
-                     guessed_share_changes(*antenna.structure, place));
-    reading.other_shares = true;
-    reading.shares = place;
+        readings.add(ReadingKind::guessed_fractions, std::string(to_string(place)),
+                     guessed_fraction_changes(*antenna.structure, place));
+    reading.other_fractions = true;
+    reading.fractions = place;
   }
   if (antenna.resonance->frequency) {
     const std::size_t first = readings.count();

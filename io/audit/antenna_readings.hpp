@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <boresight/io/case/case_declaration.hpp>
-#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/guessed_fractions.hpp>
 #include <boresight/plant/antenna/antenna.hpp>
 
 namespace boresight::io {
@@ -16,7 +16,7 @@ enum class ReadingKind {
   other_inertia,           // by an alternative antenna inertia
   oil_convention,          // the other convention for the oil spring
   gear_spring,             // another antenna with the frequencies stated for locked motors
-  guessed_shares,          // other values of the assumed wind fractions and beam weights
+  guessed_fractions,       // other values of the assumed wind fractions and beam weights
   oil_by_resonance,        // bulk modulus that reproduces the resonance, flexible antenna
   stiffness_by_resonance,  // oil spring that reproduces it, rigid masses
   inertia_by_resonance,    // inertia that reproduces it on the stated oil spring
@@ -43,8 +43,8 @@ struct AntennaReading {
   /// True for another source's number or a test's result that contradicts the stated one; false for
   /// a convention.
   bool contradicts = false;
-  bool other_attitude = false;  // of the same antenna, on its own springs
-  bool other_shares = false;    // other assumed wind fractions and beam weights
+  bool other_attitude = false;   // of the same antenna, on its own springs
+  bool other_fractions = false;  // other assumed wind fractions and beam weights
   /// Resonance of its flexible antenna (resonating_mode, Hz); 0 if the case has no measured one.
   /// For interpretations by resonance, wanted_frequency is the measured frequency to reproduce.
   double resonance = 0.0;
@@ -53,15 +53,15 @@ struct AntennaReading {
   /// Further data, by kind.
   double bulk_modulus = 0.0;  // Pa: oil_by_resonance
   double factor = 1.0;        // on the oil spring or on every inertia, for the two by resonance
-  GuessedShares shares = GuessedShares::as_stated;
+  GuessedFractions fractions = GuessedFractions::as_stated;
   std::optional<TestedInertia> tested;
 };
 
 /// The case's own antenna first, then its alternative interpretations. They have other antenna
 /// inertias, the other convention for the oil spring, or other antennas with the frequencies stated
 /// for locked motors. Further ones have other assumed wind fractions and beam weights
-/// (GuessedShares). The last ones have the oil spring or inertia that resonance and impulses give:
-/// by the flexible antenna (bulk_modulus_for) first, then by rigid masses.
+/// (GuessedFractions). The last ones have the oil spring or inertia that resonance and impulses
+/// give: by the flexible antenna (bulk_modulus_for) first, then by rigid masses.
 /// @throws InvalidInput as antennas_of and plant::linear_plant; NumericalFailure as
 /// resonating_mode.
 std::vector<AntennaReading> antenna_readings(const Case& antenna);

@@ -37,7 +37,7 @@ void check_coincidences(const Case& antenna, PhysicalChecks& found);
 void check_structural_bound(const Case& antenna, PhysicalChecks& found);
 void check_wave_speeds(const Case& antenna, PhysicalChecks& found);
 void check_structural_predictions(const Case& antenna, PhysicalChecks& found);
-void check_structural_shares(const Case& antenna, PhysicalChecks& found);
+void check_structural_fractions(const Case& antenna, PhysicalChecks& found);
 void check_motors_held_antennas(const Case& antenna, PhysicalChecks& found);
 void check_gear_stiffness(const Case& antenna, PhysicalChecks& found);
 void check_ensemble_ranges(const Case& antenna, PhysicalChecks& found);

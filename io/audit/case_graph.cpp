@@ -179,7 +179,7 @@ class GraphBuilder {
   void add_reflected_inertia() {
     std::vector<std::string> loads;
     std::vector<std::string> one_train{"motor.inertia"};
-    std::vector<double> shares{1.0};
+    std::vector<double> fractions{1.0};
     for (const RotatingAssembly& assembly : case_.gear_train->assemblies) {
       const auto count = static_cast<double>(assembly.count);
       std::vector<std::string> parents{"assembly." + assembly.name + ".inertia"};
@@ -190,7 +190,7 @@ class GraphBuilder {
                 return plant::reflected_inertia(body[0], body.size() > 1 ? body[1] : 1.0, count);
               });
       one_train.push_back(loads.back());
-      shares.push_back(1.0 / count);
+      fractions.push_back(1.0 / count);
     }
     input("antenna.inertia", "inertia about the antenna's axis", case_.antenna->inertia);
     loads.emplace_back("load_inertia.antenna");
@@ -213,10 +213,10 @@ class GraphBuilder {
         },
         true);
     one_train.emplace_back("load_inertia.antenna");
-    shares.push_back(1.0);
+    fractions.push_back(1.0);
     derived("reflected_inertia.one_train", "inertia of one motor, one gear train and the antenna",
-            Kind::inertia, one_train, [shares](Arguments inertia) {
-              return std::inner_product(inertia.begin(), inertia.end(), shares.begin(), 0.0);
+            Kind::inertia, one_train, [fractions](Arguments inertia) {
+              return std::inner_product(inertia.begin(), inertia.end(), fractions.begin(), 0.0);
             });
   }
 

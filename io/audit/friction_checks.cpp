@@ -20,7 +20,7 @@
 namespace boresight::io {
 namespace {
 
-constexpr double large_share = 0.4;  // of the supply's torque
+constexpr double large_fraction = 0.4;  // of the supply's torque
 constexpr double clear_factor = 1.5;
 
 const Quantity& largest_part(const FrictionCurveEntry& curve, double rate) {
@@ -35,7 +35,7 @@ const Quantity& largest_part(const FrictionCurveEntry& curve, double rate) {
 
 /// Between what a number must lie, with the standard uncertainties of both ends.
 struct Reach {
-  double least = 0.0, most = 0.0;
+  double minimum = 0.0, maximum = 0.0;
   double of_least = 0.0, of_most = 0.0;
 };
 
@@ -77,22 +77,23 @@ void compare(const Quantity& tested, const Reach& reach, const std::string& unit
     return 2.0 * std::hypot(tested.standard_uncertainty, uncertainty);
   };
   // Slopes may be below 0, where a factor leads the other way.
-  const double lowest = std::min(reach.least / clear_factor, reach.least * clear_factor);
+  const double lowest = std::min(reach.minimum / clear_factor, reach.minimum * clear_factor);
   auto& check = begin_check(found, "friction_test_line", tested.key);
   check.entries = {entry_of(tested)};
-  check.add("tests", tested.value, unit, std::min(lowest, reach.least - clear(reach.of_least)),
-            std::max(clear_factor * reach.most, reach.most + clear(reach.of_most)));
-  check.add("least by the curve", reach.least, unit);
-  check.add("most by the curve", reach.most, unit);
+  check.add("tests", tested.value, unit, std::min(lowest, reach.minimum - clear(reach.of_least)),
+            std::max(clear_factor * reach.maximum, reach.maximum + clear(reach.of_most)));
+  check.add("least by the curve", reach.minimum, unit);
+  check.add("most by the curve", reach.maximum, unit);
 }
 
 // That share of the supply's torque and two standard uncertainties.
-double clearly_above(const MotorTorque& friction, double share, const MotorTorque& supply) {
-  return share * supply.value + 2.0 * std::hypot(friction.uncertainty, share * supply.uncertainty);
+double clearly_above(const MotorTorque& friction, double fraction, const MotorTorque& supply) {
+  return fraction * supply.value +
+         2.0 * std::hypot(friction.uncertainty, fraction * supply.uncertainty);
 }
 
-bool above(const MotorTorque& friction, double share, const MotorTorque& supply) {
-  return friction.value > clearly_above(friction, share, supply);
+bool above(const MotorTorque& friction, double fraction, const MotorTorque& supply) {
+  return friction.value > clearly_above(friction, fraction, supply);
 }
 
 /// A viscous friction (N m s/rad at the motor), and what the test's unit is read as.
@@ -103,7 +104,7 @@ struct SlopeReading {
 
 // What it would do, within the damping ratio and the torque given.
 void add_effect(const Case& antenna, const ShaftNumbers& shaft, const SlopeReading& reading,
-                double most_damping, double most_torque, design::PhysicalCheck& check) {
+                double max_damping, double max_torque, design::PhysicalCheck& check) {
   const auto& intercept = antenna.friction_tests->constant_speed_coulomb;
   const double torque = (intercept ? intercept->value : 0.0) + reading.slope * shaft.slew_rate;
   check.add("slope " + reading.name, reading.slope, "N.m.s/rad");
@@ -111,8 +112,8 @@ void add_effect(const Case& antenna, const ShaftNumbers& shaft, const SlopeReadi
       "damping ratio " + reading.name,
       plant::hydraulic_damping(shaft.oil_stiffness, shaft.motors + shaft.gear_train + shaft.antenna,
                                antenna.drive->leakage_rate.value, reading.slope),
-      "1", -design::unbounded, most_damping);
-  check.add("torque at slew rate " + reading.name, torque, "N.m", -design::unbounded, most_torque);
+      "1", -design::unbounded, max_damping);
+  check.add("torque at slew rate " + reading.name, torque, "N.m", -design::unbounded, max_torque);
   check.add("power at slew rate " + reading.name, torque * shaft.slew_rate, "W");
 }
 
@@ -175,16 +176,16 @@ void check_friction_against_supply(const Case& antenna, PhysicalChecks& found) {
   // What cannot even break away need not be told that it slews too slowly.
   const bool at_rest = starting.value >= slewing.value || above(starting, 1.0, supply);
   const MotorTorque& friction = at_rest ? starting : slewing;
-  const Quantity& most = at_rest ? curve.breakaway : largest_part(curve, found.shaft.slew_rate);
-  auto& check = begin_check(found, "friction_against_supply", most.key);
-  check.entries = {entry_of(most), entry_of(antenna.drive->supply_pressure)};
+  const Quantity& maximum = at_rest ? curve.breakaway : largest_part(curve, found.shaft.slew_rate);
+  auto& check = begin_check(found, "friction_against_supply", maximum.key);
+  check.entries = {entry_of(maximum), entry_of(antenna.drive->supply_pressure)};
   check.explanation = at_rest ? "breakaway" : "slewing";
   if (above(friction, 1.0, supply)) check.explanation += "_beyond_supply";
   check.add("breakaway", starting.value, "N.m");
   check.add("friction at slew rate", slewing.value, "N.m");
   check.add("supply torque", supply.value, "N.m");
-  check.add("share of the supply torque", friction.value / supply.value, "1", -design::unbounded,
-            clearly_above(friction, large_share, supply) / supply.value);
+  check.add("fraction of the supply torque", friction.value / supply.value, "1", -design::unbounded,
+            clearly_above(friction, large_fraction, supply) / supply.value);
 }
 
 void check_friction_tests(const Case& antenna, PhysicalChecks& found) {
@@ -205,7 +206,7 @@ void check_friction_curve_tests(const Case& antenna, PhysicalChecks& found) {
   auto& check = begin_check(found, "friction_curve_tests", "friction_curve.test", !rate);
   check.add("Stribeck rate", curve.stribeck_rate.value, "rad/s");
   if (rate) {
-    check.add("least Stribeck rate", rate->least, "rad/s");
+    check.add("least Stribeck rate", rate->minimum, "rad/s");
     check.add("largest Stribeck rate", rate->largest, "rad/s");
   }
 }

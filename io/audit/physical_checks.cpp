@@ -61,7 +61,7 @@ PhysicalChecks check_physics(const Case& antenna, const design::AuditGraph& grap
                            check_wave_speeds,
                            check_structural_bound,
                            check_structural_predictions,
-                           check_structural_shares,
+                           check_structural_fractions,
                            check_motors_held_antennas,
                            check_gear_stiffness,
                            check_ensemble_ranges,

@@ -75,7 +75,7 @@ struct PhysicalChecks {
 /// - slew_rate_under_load: the slew rate exceeds the rate under load. Friction and offset torque T
 ///   reduce the no-load rate by the factor sqrt(1 - T/Ts), less leakage, with Ts the torque of the
 ///   supply pressure above the return (Merritt, Hydraulic Control Systems, 1967). The valve is that
-///   of design/problem/drive_reach.hpp without its overlap. Explained by "friction" or
+///   of design/problem/drive_capability.hpp without its overlap. Explained by "friction" or
 ///   "friction_and_offset";
 /// - valve_strokes: these two strokes differ by more than 5 %. Like the two checks before, by more
 ///   than two standard uncertainties as well;

@@ -17,7 +17,7 @@ namespace boresight::io {
 namespace {
 
 // With every body's shares of wind and beam those of the inertia.
-Case with_inertial_shares(Case antenna) {
+Case with_inertial_fractions(Case antenna) {
   StructureEntry& structure = *antenna.structure;
   double bull_gear = 1.0;
   for (auto& mode : structure.modes) {
@@ -43,7 +43,7 @@ double factor_between(double one, double other) {
 
 // Up to which the stated stiffness of the gear train and the plant's are one.
 double agreeing_factor(const Case& antenna, const Quantity& stiffness) {
-  constexpr double usual = 1.3, least = 1.05, deviations = 3.0;
+  constexpr double usual = 1.3, minimum = 1.05, deviations = 3.0;
   if (!stiffness.uncertainty_given) return usual;
   const auto stated = [](const Quantity& quantity) {
     return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
@@ -51,7 +51,7 @@ double agreeing_factor(const Case& antenna, const Quantity& stiffness) {
   // The plant's goes with the inertia and with the square of the frequencies.
   const double uncertainty = std::hypot(stated(stiffness), stated(antenna.antenna->inertia),
                                         2.0 * stated(antenna.structure->locked_rotor_frequency));
-  return std::max(least, 1.0 + deviations * uncertainty);
+  return std::max(minimum, 1.0 + deviations * uncertainty);
 }
 
 // What would make the plant's gear spring as stiff as stated.
@@ -82,7 +82,7 @@ void explain_gear_stiffness(const Case& antenna, double stiffness, double agreei
       structure_specification(structure), static_cast<std::size_t>(heaviest - modes.begin()),
       stiffness / antenna.antenna->inertia.value);
   check.explanation = frequency ? "heaviest_mode" : "inputs";
-  if (frequency) check.add("heaviest mode for it", *frequency, "Hz");
+  if (frequency) check.add("mode of largest inertia for it", *frequency, "Hz");
 }
 
 }  // namespace
@@ -97,26 +97,27 @@ void check_structural_bound(const Case& antenna, PhysicalChecks& found) {
 
 // A mode of little inertia that takes nearly all of wind or beam is soft under it: its modal
 // stiffness goes with its inertia.
-void check_structural_shares(const Case& antenna, PhysicalChecks& found) {
+void check_structural_fractions(const Case& antenna, PhysicalChecks& found) {
   constexpr double large = 0.5, clear_factor = 3.0;
   auto& check = begin_check(found, "structural_shares", "structure.mode");
   for (const auto& mode : antenna.structure->modes) {
     const Quantity& inertia = mode.inertia_fraction;
-    for (const Quantity* share : {&mode.wind_fraction, &mode.beam_weight}) {
+    for (const Quantity* fraction : {&mode.wind_fraction, &mode.beam_weight}) {
       // Those of a modes file were computed, and are nobody's guess.
-      if (share->text.empty() || share->value <= std::max(large, clear_factor * inertia.value)) {
+      if (fraction->text.empty() ||
+          fraction->value <= std::max(large, clear_factor * inertia.value)) {
         continue;
       }
-      check.entries.push_back(entry_of(*share));
+      check.entries.push_back(entry_of(*fraction));
       check.entries.push_back(entry_of(inertia));
     }
   }
   if (!check.entries.empty()) {
     check.quantity = check.entries.front().id;
     check.holds = false;
-    check.add("bending by the stated shares", mean_bending(antenna), "rad");
-    check.add("bending by the shares of the inertia", mean_bending(with_inertial_shares(antenna)),
-              "rad");
+    check.add("bending by the stated fractions", mean_bending(antenna), "rad");
+    check.add("bending by the fractions of the inertia",
+              mean_bending(with_inertial_fractions(antenna)), "rad");
   }
 }
 

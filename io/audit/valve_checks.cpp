@@ -47,10 +47,10 @@ double allowance(const Quantity& one, const Quantity& other, double size) {
 double excess_uncertainty(const Case& antenna, const ShaftNumbers& shaft,
                           const plant::LoadedDrive& drive, const Quantity& stroke) {
   const double square = std::pow(shaft.slew_rate / stroke.value, 2);
-  const double of_share = 2.0 * std::hypot(relative_uncertainty(antenna.drive->slew_rate),
-                                           relative_uncertainty(stroke));
+  const double of_fraction = 2.0 * std::hypot(relative_uncertainty(antenna.drive->slew_rate),
+                                              relative_uncertainty(stroke));
   return std::hypot(friction_at_slew_rate(antenna, shaft).uncertainty,
-                    drive.available() * square * of_share,
+                    drive.available() * square * of_fraction,
                     torque_of_supply(antenna, shaft).uncertainty * (1.0 - square));
 }
 

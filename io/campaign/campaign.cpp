@@ -116,10 +116,10 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
   knowledge.motor_inertia = evidence.motor_inertia;
   for (const auto& assembly : evidence.assemblies) {
     const double ratio = plant::gear_ratio(evidence.stages, assembly.stages);
-    const double share = assembly.count / (ratio * ratio);
-    knowledge.gear_inertia.value += share * assembly.inertia.value;
+    const double fraction = assembly.count / (ratio * ratio);
+    knowledge.gear_inertia.value += fraction * assembly.inertia.value;
     // Added, not in squares: one density, and the same habit of taking gears for disks.
-    knowledge.gear_inertia.standard_uncertainty += share * assembly.inertia.standard_uncertainty;
+    knowledge.gear_inertia.standard_uncertainty += fraction * assembly.inertia.standard_uncertainty;
   }
   if (evidence.assemblies.empty()) {
     notes.assumptions.emplace_back("no gear_train.assembly: the gears' inertia was taken as zero");
@@ -216,7 +216,7 @@ identification::Campaign make_campaign(const Case& antenna, LoadedCampaign loade
   }
   if (!replaced.empty()) {
     notes.assumptions.push_back(fmt::format(
-        "a dead pressure was replaced by the mean of the other motors', which hang on the same "
+        "a dead pressure was replaced by the mean of the other motors', which depend on the same "
         "common line ({}), and so was one of the wrong sign or port; the pressures' uncertainties "
         "were raised for it",
         replaced));

@@ -10,7 +10,7 @@ namespace boresight::io {
 using numerics::Interval;
 using numerics::Uncertain;
 
-std::optional<Interval> reconciled(const CampaignSection& section, const std::string& quantity) {
+std::optional<Interval> combined(const CampaignSection& section, const std::string& quantity) {
   if (section.grey_box) return section.grey_box->quantity(quantity).posterior;
   if (quantity == "inertia" && section.mean_of_methods) {
     const auto& mean = *section.mean_of_methods;
@@ -19,10 +19,10 @@ std::optional<Interval> reconciled(const CampaignSection& section, const std::st
   return std::nullopt;
 }
 
-std::optional<Difference> difference_from_reconciled(const CampaignSection& section,
-                                                     const std::string& quantity,
-                                                     const Interval& other) {
-  const auto own = reconciled(section, quantity);
+std::optional<Difference> difference_from_combined(const CampaignSection& section,
+                                                   const std::string& quantity,
+                                                   const Interval& other) {
+  const auto own = combined(section, quantity);
   if (!own) return std::nullopt;
   const double difference = other.value - own->value;
   return Difference{difference / std::abs(own->value),
@@ -35,7 +35,7 @@ std::vector<QuantityRow> quantity_rows(const CampaignSection& section) {
                        const std::optional<Interval>& interval) {
     if (!interval) return;
     rows.push_back({quantity, unit, std::move(method), *interval,
-                    difference_from_reconciled(section, quantity, *interval)});
+                    difference_from_combined(section, quantity, *interval)});
   };
   for (const auto& test : section.slosh) {
     add("bulk modulus", "Pa", fmt::format("{}, all lines", test.record), test.result.bulk_modulus);
@@ -97,7 +97,7 @@ void average_methods(CampaignSection& section) {
     return !(one.standard_uncertainty > 0.0) || !std::isfinite(one.standard_uncertainty);
   });
   if (estimates.size() < 2) return;
-  const auto mean = identification::reconcile(estimates, motors);
+  const auto mean = identification::combine(estimates, motors);
   if (mean.contradictory()) {
     section.contradiction = fmt::format(
         "The methods contradict one another (Cochran's Q {:.1f} on {} degrees of freedom, between "
@@ -130,8 +130,8 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
   constexpr std::size_t fewest = 6;
   if (rates.size() < fewest && highest > lowest) {
     for (std::size_t i = 1; i + 1 < fewest; ++i) {
-      const double share = static_cast<double>(i) / static_cast<double>(fewest - 1);
-      const double between = lowest * std::pow(highest / lowest, share);
+      const double fraction = static_cast<double>(i) / static_cast<double>(fewest - 1);
+      const double between = lowest * std::pow(highest / lowest, fraction);
       const bool near = std::any_of(rates.begin(), rates.end(), [&](double rate) {
         return std::abs(std::log(rate / between)) < 0.1;
       });
@@ -147,7 +147,7 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
     row.tracking = rate == tracking;
     row.extrapolated = rate < lowest || rate > highest;
     if (section.grey_box) {
-      row.reconciled = identification::friction_interval(*section.grey_box, rate);
+      row.combined = identification::friction_interval(*section.grey_box, rate);
     }
     if (fit != nullptr) row.curve = identification::friction_of_antenna(*fit, campaign, rate);
     if (tests != nullptr) {
@@ -175,7 +175,7 @@ std::string verdict(const CampaignSection& section,
 
 std::string contradiction_with_case(const identification::GreyBoxResult& found) {
   const auto& conflict = found.conflict;
-  if (!conflict.beyond_chance()) return {};
+  if (!conflict.beyond_scatter()) return {};
   std::string text = fmt::format(
       "The records and the stated numbers contradict one another: the squares of the distances of "
       "{} of them, in their uncertainties, add up to {:.0f} where random scatter makes {} and "
@@ -249,11 +249,11 @@ std::vector<std::string> not_identifiable(const CampaignSection& section) {
     }
   } else if (section.mean_of_methods) {
     sentences.emplace_back(
-        "No model explains all records at once (see below): the reconciled inertia is a mean of "
+        "No model explains all records at once (see below): the combined inertia is a mean of "
         "methods that differ in what they leave out.");
   } else {
     sentences.emplace_back(
-        "No model explains all records at once (see below), and there is no reconciled inertia.");
+        "No model explains all records at once (see below), and there is no combined inertia.");
   }
   if (section.bulk_modulus_stated) {
     sentences.push_back(fmt::format(

@@ -6,11 +6,11 @@
 namespace boresight::io {
 
 /// The combined estimate of a quantity (GreyBoxQuantity::name); nothing without one.
-std::optional<numerics::Interval> reconciled(const CampaignSection& section,
-                                             const std::string& quantity);
-std::optional<Difference> difference_from_reconciled(const CampaignSection& section,
-                                                     const std::string& quantity,
-                                                     const numerics::Interval& other);
+std::optional<numerics::Interval> combined(const CampaignSection& section,
+                                           const std::string& quantity);
+std::optional<Difference> difference_from_combined(const CampaignSection& section,
+                                                   const std::string& quantity,
+                                                   const numerics::Interval& other);
 
 /// All motors over everything else (eq. 27) from a reflected inertia (kg m2).
 numerics::Interval motor_to_load_ratio(const identification::DriveKnowledge& knowledge,

@@ -67,7 +67,7 @@ class Records {
   // Slosh frequencies say it, whatever the grey box adds; without them only the grey box may.
   std::optional<Interval> bulk_modulus() const {
     if (section_.bulk_modulus_stated) return quantity("bulk modulus");
-    const auto best = reconciled(section_, "bulk modulus");
+    const auto best = combined(section_, "bulk modulus");
     return best ? *best : section_.bulk_modulus;
   }
   // Who says so.
@@ -139,7 +139,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
   const bool assumed = curve.coulomb.basis == Basis::assumed;
   std::vector<const FrictionRow*> tested;
   for (const auto& row : section.friction) {
-    if (!row.extrapolated && (row.reconciled || row.curve)) tested.push_back(&row);
+    if (!row.extrapolated && (row.combined || row.curve)) tested.push_back(&row);
   }
   // Lowest, middle, highest say all there is to say.
   if (tested.size() > 3) {
@@ -147,7 +147,7 @@ void compare_friction(const CampaignSection& section, const Case& antenna,
   }
   for (const auto* one : tested) {
     const FrictionRow& row = *one;
-    const auto& records = row.reconciled ? row.reconciled : row.curve;
+    const auto& records = row.combined ? row.combined : row.curve;
     if (!records) continue;
     const double stated = plant::friction_torque(friction_curve(antenna), row.rate);
     const double uncertainty =
@@ -196,7 +196,7 @@ void compare_stated(const Case& antenna, const Records& records, const CampaignS
   }
   for (const auto& impulse : antenna.impulse_results) {
     contradictions.compare(impulse.reflected_inertia, fmt::format("impulse.{}", impulse.name),
-                           "kg m2", reconciled(section, "inertia"), "reconciled inertia");
+                           "kg m2", combined(section, "inertia"), "combined inertia");
   }
 }
 

@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 7> test_kinds{
 void describe_difference(Visitor& v, const std::optional<Difference>& difference,
                          std::string_view meaning) {
   v.optional_group("difference", difference, meaning, [&](const Difference& there) {
-    v.defined_as("difference", "Another estimate against the reconciled one.");
-    v.number("relative", there.relative, unit::ratio, "Difference over the reconciled value.");
+    v.defined_as("difference", "Another estimate against the combined one.");
+    v.number("relative", there.relative, unit::ratio, "Difference over the combined value.");
     v.number("normalised", there.normalised, unit::ratio,
              "Difference over both standard uncertainties' root sum of squares.");
   });
@@ -74,7 +74,7 @@ void describe_quantities(Visitor& v, const CampaignSection& section,
     v.flag("prior_from_drawings", q.prior_from_drawings,
            "The prior is that of drawings and data sheets, not a wide guess.");
     v.number("variance_learnt", q.learnt, unit::ratio,
-             "Share of the prior's variance that the records took away.");
+             "Fraction of the prior's variance that the records took away.");
     v.flag("identified", q.identified, "The records took half of the variance or more.");
     v.word("verdict", v.by_example() ? "identified" : verdict(section, q),
            {"identified", "slosh", "drawings", "not identifiable", "contradicts slosh",
@@ -91,7 +91,7 @@ void describe_quantities(Visitor& v, const CampaignSection& section,
 
 void describe_fit(Visitor& v, const CampaignSection& section,
                   const identification::GreyBoxResult& fit) {
-  v.defined_as("grey_box", "One nonlinear model fitted to all records: the reconciled estimate.");
+  v.defined_as("grey_box", "One nonlinear model fitted to all records: the combined estimate.");
   describe_quantities(v, section, fit);
   v.list("parameters", fit.parameters, "At the optimum.", [&](const auto& p) {
     v.text("name", p.parameter.name, "The parameter.");
@@ -139,7 +139,7 @@ void describe_fit(Visitor& v, const CampaignSection& section,
   v.texts("notes", fit.notes, "What the reader must know.");
 }
 
-void describe_mean(Visitor& v, const identification::ReconciledInertia& mean) {
+void describe_mean(Visitor& v, const identification::CombinedInertia& mean) {
   const numerics::Interval inertia{mean.value, mean.standard_uncertainty, mean.lower, mean.upper};
   v.defined_as("mean_of_methods", "Random-effects mean of the methods.");
   describe_interval(v, "inertia", inertia, "kg m2", "The mean.");
@@ -159,7 +159,7 @@ void describe_method(Visitor& v, const InertiaRow& row) {
   describe_interval(v, "inertia", row.inertia, "kg m2", "Motors and load at the motor shaft.");
   describe_interval(v, "motor_to_load_ratio", row.motor_to_load_ratio, "1",
                     "All motors against the load.");
-  describe_difference(v, row.difference, "From the reconciled inertia.");
+  describe_difference(v, row.difference, "From the combined inertia.");
   v.text("assumes", row.assumes, "What it takes for granted.");
   v.text("why", row.why, "Why it differs, in words and numbers.");
 }
@@ -168,7 +168,7 @@ void describe_slosh(Visitor& v, const SloshTest& test) {
   v.defined_as("slosh", "Oil lines by one slosh test.");
   v.text("record", test.record, "The record.");
   v.list("lines", test.result.lines, "Lines that rang.", [&](const auto& line) {
-    v.count("motor", line.motor + 1, "From 1.", {.least = 1});
+    v.count("motor", line.motor + 1, "From 1.", {.minimum = 1});
     v.word("side", line.side == identification::LineSide::inlet ? "inlet" : "outlet",
            {"inlet", "outlet"}, "The port.");
     v.number("length", line.length ? std::optional(line.length->value) : std::nullopt, as_named,
@@ -202,7 +202,7 @@ void describe_friction(Visitor& v, const CampaignSection& section) {
     v.number("rate", row.rate, unit::radian_per_second, "Of the motor.");
     v.flag("tracking", row.tracking, "At which the antenna follows a star.");
     v.flag("extrapolated", row.extrapolated, "Outside the constant-speed tests.");
-    describe_interval(v, "reconciled", row.reconciled, "N m", "Grey box.");
+    describe_interval(v, "combined", row.combined, "N m", "Grey box.");
     describe_interval(v, "curve", row.curve, "N m", "Curve fitted to the windows of all tests.");
     describe_interval(v, "constant_speed", row.tested, "N m", "Test at this speed.");
   });
@@ -250,7 +250,7 @@ void describe_contradiction(Visitor& v, const Contradiction& one) {
 
 // What is left of one quantity's interval after a test.
 struct AdvisedTest {
-  identification::GreyBoxTestGain gain;
+  identification::GreyBoxInformationGain gain;
   double remaining = 0.0;
 };
 struct Advice {
@@ -292,12 +292,12 @@ void describe_methods(Visitor& v, const CampaignSection& section) {
            v.text("method", failure.method, "The method.");
            v.text("reason", failure.reason, "Why.");
          });
-  v.list("quantities", section.quantities, "Other estimates of the reconciled quantities.",
+  v.list("quantities", section.quantities, "Other estimates of the combined quantities.",
          [&](const QuantityRow& row) {
            v.text("quantity", row.quantity, "The quantity.");
            v.text("method", row.method, "The method.");
            describe_interval(v, "estimate", row.interval, row.unit, "What it gives.");
-           describe_difference(v, row.difference, "From the reconciled one.");
+           describe_difference(v, row.difference, "From the combined one.");
          });
   describe_interval(v, "bulk_modulus", section.bulk_modulus, "Pa", "As the resonance used it.");
   v.flag("bulk_modulus_stated", section.bulk_modulus_stated,
@@ -338,12 +338,12 @@ void describe(Visitor& v, const CampaignSection& section) {
                    });
   v.list("look_at", suspicions(section), "Records and channels to look at, the worst first.",
          [&](const ChannelSuspicion& one) { describe_suspicion(v, one); });
-  v.optional_group("reconciled", section.grey_box,
+  v.optional_group("combined", section.grey_box,
                    "Null where no model explains the records; recommended only where that is not "
                    "null.",
                    [&](const auto& fit) { describe_fit(v, section, fit); });
   v.optional_group("mean_of_methods", section.mean_of_methods,
-                   "In place of the reconciled estimate; null beside one.",
+                   "In place of the combined estimate; null beside one.",
                    [&](const auto& mean) { describe_mean(v, mean); });
   v.optional_group(
       "hold_out", section.hold_out,

@@ -29,10 +29,10 @@ class SharedProgress {
  public:
   explicit SharedProgress(const IdentificationOptions& options) : options_(options) {}
   enum Part : std::size_t { reading, simple_methods, grey_box, hold_out, ranking };
-  void tell(Part part, double share) {
+  void tell(Part part, double fraction) {
     if (!options_.progress) return;
     const std::lock_guard lock(mutex_);
-    done_.at(part) = std::max(done_.at(part), share * weights.at(part));
+    done_.at(part) = std::max(done_.at(part), fraction * weights.at(part));
     const double sum = std::accumulate(done_.begin(), done_.end(), 0.0);
     options_.progress(static_cast<std::size_t>(std::clamp(std::round(sum), 1.0, 100.0)), 100);
   }
@@ -152,8 +152,8 @@ void run_grey_box(const Campaign& campaign, const IdentificationOptions& options
     identification::GreyBoxOptions grey;
     grey.seed = options.seed;
     grey.threads = options.threads;
-    grey.progress = [&](const std::string&, double share) {
-      progress.tell(SharedProgress::grey_box, share);
+    grey.progress = [&](const std::string&, double fraction) {
+      progress.tell(SharedProgress::grey_box, fraction);
       return true;
     };
     grey.bulk_modulus_guessed = section.bulk_modulus_guessed;
@@ -184,9 +184,9 @@ void run_hold_out(const Campaign& campaign, const IdentificationOptions& options
       grey.seed = options.seed;
       grey.threads = options.threads;
       grey.further_starts = 0;
-      grey.draws = 100;
-      grey.progress = [&](const std::string&, double share) {
-        progress.tell(SharedProgress::hold_out, share);
+      grey.random_samples = 100;
+      grey.progress = [&](const std::string&, double fraction) {
+        progress.tell(SharedProgress::hold_out, fraction);
         return true;
       };
       grey.bulk_modulus_guessed = section.bulk_modulus_guessed;

@@ -29,7 +29,7 @@ std::string name_of(ResonanceReading kind) {
     case ResonanceReading::ring_single_mass:
       return "valve steps, K/(2 pi f)^2";
     case ResonanceReading::ring_with_losses:
-      return "valve steps, losses out";
+      return "valve steps, damping-corrected";
     case ResonanceReading::ring_flexible:
       return "valve steps, flexible load";
     case ResonanceReading::ring_shape:
@@ -104,7 +104,7 @@ std::string harmonic_lock(const identification::TorqueSpectrum& spectrum, double
 std::string why_spectrum(const CampaignSection& section,
                          const identification::ResonanceResult& resonance,
                          const identification::InertiaReading& one, const Case& antenna) {
-  const auto inertia = reconciled(section, "inertia");
+  const auto inertia = combined(section, "inertia");
   const double frequency = one.frequency ? one.frequency->value : 0.0;
   std::string why;
   for (const auto& spectrum : resonance.spectra) {
@@ -114,7 +114,7 @@ std::string why_spectrum(const CampaignSection& section,
   }
   const double flexible = 1.0 / std::pow(resonance.coupled_over_rigid, 2);
   if (inertia && frequency > 0.0) {
-    const auto stiffness = reconciled(section, "oil stiffness");
+    const auto stiffness = combined(section, "oil stiffness");
     const double oil = stiffness ? resonance.conventional_stiffness.value / stiffness->value : 1.0;
     const double all = one.inertia.value / inertia->value;
     why += fmt::format(
@@ -182,9 +182,9 @@ InertiaRow mass_row(const CampaignSection& section) {
                  knowledge.gear_inertia.standard_uncertainty,
                  knowledge.antenna_inertia.standard_uncertainty));
   row.assumes = "drawings and the structural group's antenna inertia";
-  if (const auto inertia = reconciled(section, "inertia")) {
+  if (const auto inertia = combined(section, "inertia")) {
     row.why = fmt::format(
-        "Motors and gears make {:.4g} kg.m2 of it; the reconciled inertia leaves {:.4g} for the "
+        "Motors and gears make {:.4g} kg.m2 of it; the combined inertia leaves {:.4g} for the "
         "antenna where the drawings have {:.4g} ({:+.1f} %).",
         side, inertia->value - side, knowledge.antenna_inertia.value,
         percent(knowledge.antenna_inertia.value / (inertia->value - side)));
@@ -222,9 +222,10 @@ void add_impulse(const CampaignSection& section, std::vector<InertiaRow>& rows) 
     row.inertia = estimate.inertia;
     row.assumes = assumptions_of(estimate);
     row.why = estimate.note;
-    if (!estimate.shares.empty()) {
+    if (!estimate.fractions.empty()) {
       row.why += fmt::format("{}Its interval is mostly {} ({:.0f} %).", row.why.empty() ? "" : " ",
-                             estimate.shares.front().source, 100.0 * estimate.shares.front().share);
+                             estimate.fractions.front().source,
+                             100.0 * estimate.fractions.front().fraction);
     }
     rows.push_back(std::move(row));
   }
@@ -257,7 +258,7 @@ std::vector<InertiaRow> inertia_rows(const CampaignSection& section, const Case&
   add_impulse(section, rows);
   for (auto& row : rows) {
     row.motor_to_load_ratio = motor_to_load_ratio(section.knowledge, row.inertia);
-    row.difference = difference_from_reconciled(section, "inertia", row.inertia);
+    row.difference = difference_from_combined(section, "inertia", row.inertia);
   }
   return rows;
 }

@@ -32,8 +32,8 @@ void list(Visitor& v, std::string_view key, const Numbers& numbers, const KeyUni
 
 void describe_windows(Visitor& v, const FrictionCurveFit& fit) {
   // Every so many of a long campaign's windows: a plot is not to be thousands of dots.
-  constexpr std::size_t most = 600;
-  const std::size_t step = 1 + fit.points.size() / most;
+  constexpr std::size_t maximum = 600;
+  const std::size_t step = 1 + fit.points.size() / maximum;
   std::vector<double> rate, torque;
   for (std::size_t i = 0; i < fit.points.size(); i += step) {
     rate.push_back(fit.points[i].rate);
@@ -79,9 +79,9 @@ void describe_friction(Visitor& v, const CampaignSection& section, const RateRan
     if (fit) fitted.push_back(plant::friction_torque(fit->curve, w));
   }
   list(v, "rate", rate, unit::radian_per_second, "Of the curves.");
-  list(v, "reconciled", value, unit::newton_metre, "Grey box; empty without.");
-  list(v, "reconciled_lower_95", lower, unit::newton_metre, "Its band.");
-  list(v, "reconciled_upper_95", upper, unit::newton_metre, "Its band.");
+  list(v, "combined", value, unit::newton_metre, "Grey box; empty without.");
+  list(v, "combined_lower_95", lower, unit::newton_metre, "Its band.");
+  list(v, "combined_upper_95", upper, unit::newton_metre, "Its band.");
   list(v, "curve_as_recorded", fitted, unit::newton_metre, "Fitted curve; empty without.");
   v.optional_group("windows", fit, "Friction in windows of the tests, sign of the rate.",
                    [&](const FrictionCurveFit& there) { describe_windows(v, there); });
@@ -129,7 +129,7 @@ void describe_ringing(Visitor& v, const SloshTest& test) {
     while (first + count < plot.frequency.size() && plot.frequency(first + count) < 1.4 * highest) {
       ++count;
     }
-    v.count("motor", plot.motor + 1, "From 1.", {.least = 1});
+    v.count("motor", plot.motor + 1, "From 1.", {.minimum = 1});
     v.word("side", plot.side == identification::LineSide::inlet ? "inlet" : "outlet",
            {"inlet", "outlet"}, "The port.");
     v.number("start", short_number(plot.start), unit::second, "Of the window.");

@@ -6,7 +6,7 @@
 
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/identification/grey_box/grey_box_hold_out.hpp>
-#include <boresight/identification/grey_box/grey_box_test_gain.hpp>
+#include <boresight/identification/grey_box/grey_box_information_gain.hpp>
 #include <boresight/identification/impulse/impulse_momentum.hpp>
 #include <boresight/identification/lines/slosh.hpp>
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
@@ -58,12 +58,12 @@ struct QuantityRow {
 
 /// Friction at one motor speed, N m.
 struct FrictionRow {
-  double rate = 0.0;                             // rad/s of motor
-  bool tracking = false;                         // at which the antenna follows a star
-  bool extrapolated = false;                     // slower or faster than the constant-speed tests
-  std::optional<numerics::Interval> reconciled;  // grey box
-  std::optional<numerics::Interval> curve;       // curve fitted to all tests' windows
-  std::optional<numerics::Interval> tested;      // constant-speed test at this speed
+  double rate = 0.0;                           // rad/s of motor
+  bool tracking = false;                       // at which the antenna follows a star
+  bool extrapolated = false;                   // slower or faster than the constant-speed tests
+  std::optional<numerics::Interval> combined;  // grey box
+  std::optional<numerics::Interval> curve;     // curve fitted to all tests' windows
+  std::optional<numerics::Interval> tested;    // constant-speed test at this speed
 };
 
 /// A number of the case that the records contradict.
@@ -104,7 +104,7 @@ struct CampaignSection {
   std::optional<identification::GreyBoxResult> grey_box;
   /// In its place where it could not be had: the random-effects mean of the methods,
   /// unless they contradict one another beyond chance.
-  std::optional<identification::ReconciledInertia> mean_of_methods;
+  std::optional<identification::CombinedInertia> mean_of_methods;
   std::optional<HoldOut> hold_out;  // where a record has a valve command and others are left
   std::vector<MethodFailure> failures;
   /// Why all of this is to be doubted: records against stated numbers, or methods against one
@@ -115,7 +115,7 @@ struct CampaignSection {
   std::vector<InertiaRow> inertia;
   std::vector<QuantityRow> quantities;
   std::vector<FrictionRow> friction;
-  std::vector<identification::GreyBoxTestGain> test_gains;  // by gain for the inertia
+  std::vector<identification::GreyBoxInformationGain> test_gains;  // by gain for the inertia
   std::vector<Contradiction> contradictions;
 };
 

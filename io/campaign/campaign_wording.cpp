@@ -32,9 +32,9 @@ bool advised_quantity(std::string_view name) {
   return std::find(advised.begin(), advised.end(), name) != advised.end();
 }
 
-std::vector<const identification::GreyBoxTestGain*> ranked(
-    const std::vector<identification::GreyBoxTestGain>& gains, std::size_t quantity) {
-  std::vector<const identification::GreyBoxTestGain*> sorted;
+std::vector<const identification::GreyBoxInformationGain*> ranked(
+    const std::vector<identification::GreyBoxInformationGain>& gains, std::size_t quantity) {
+  std::vector<const identification::GreyBoxInformationGain*> sorted;
   sorted.reserve(gains.size());
   for (const auto& gain : gains) sorted.push_back(&gain);
   std::stable_sort(sorted.begin(), sorted.end(), [&](const auto* a, const auto* b) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include <boresight/identification/grey_box/grey_box_test_gain.hpp>
+#include <boresight/identification/grey_box/grey_box_information_gain.hpp>
 #include <boresight/numerics/statistics/interval.hpp>
 
 namespace boresight::io {
@@ -26,7 +26,7 @@ std::string range(const numerics::Interval& interval, double scale = 1.0);
 bool advised_quantity(std::string_view name);
 
 /// The tests by what they leave of a quantity's interval, the least first.
-std::vector<const identification::GreyBoxTestGain*> ranked(
-    const std::vector<identification::GreyBoxTestGain>& gains, std::size_t quantity);
+std::vector<const identification::GreyBoxInformationGain*> ranked(
+    const std::vector<identification::GreyBoxInformationGain>& gains, std::size_t quantity);
 
 }  // namespace boresight::io

@@ -20,7 +20,7 @@ std::vector<design::EnsembleMember> drawn_members(const design::Mission& mission
   members.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     members.push_back(
-        {fmt::format("draw {}", i + 1),
+        {fmt::format("sample {}", i + 1),
          linear_plant(changed(mission.antenna, changes_of(distribution.draw(seed, i))))});
   }
   return members;
@@ -52,9 +52,10 @@ DesignedAntenna designed_antenna(const Case& stated, const std::optional<Campaig
   constexpr std::size_t members = 30;
   const identification::GreyBoxResult& found = *campaign->grey_box;
   const auto parts = taken_parts(stated, found);
-  const Case identified = with_identified(stated, found.estimate, found.draws, parts);
+  const Case identified = with_identified(stated, found.estimate, found.random_samples, parts);
   design::Mission mission = mission_of(identified);
-  const auto distribution = design::PlantDistribution::of_records(mission, found.draws, parts);
+  const auto distribution =
+      design::PlantDistribution::of_records(mission, found.random_samples, parts);
   design::PlantEnsemble ensemble{design::EnsembleSource::records,
                                  drawn_members(mission, distribution, seed, members)};
   if (parts.friction_slope) ensemble.members.back() = slewing_member(mission);

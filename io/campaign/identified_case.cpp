@@ -149,7 +149,8 @@ bool is_narrower(const FrictionCurveEntry& curve, const numerics::Interval& leve
 }  // namespace
 
 Case with_identified(const Case& antenna, const DriveEstimate& estimate,
-                     const std::vector<DriveEstimate>& draws, const IdentifiedParts& parts) {
+                     const std::vector<DriveEstimate>& random_samples,
+                     const IdentifiedParts& parts) {
   if (estimate.contradicted) {
     throw NumericalFailure(fmt::format(
         "{}: the records contradict the stated numbers that inertia and stiffness rest on: there "
@@ -158,7 +159,7 @@ Case with_identified(const Case& antenna, const DriveEstimate& estimate,
   }
   const plant::Antenna own = antenna_of(antenna);
   const plant::Antenna found = changed(own, identified_changes(own, estimate, parts));
-  const Numbers numbers = identified_numbers(own, estimate, draws, parts);
+  const Numbers numbers = identified_numbers(own, estimate, random_samples, parts);
   Case identified = antenna;
   Replacement replace(identified, numbers);
   replace.set(identified.motor->inertia, "motor.inertia");

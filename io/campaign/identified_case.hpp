@@ -17,7 +17,7 @@ namespace boresight::io {
 /// @throws NumericalFailure for an estimate that leaves the antenna no inertia, and for one that
 /// the records' contradiction with the case makes none (DriveEstimate::contradicted).
 Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate,
-                     const std::vector<identification::DriveEstimate>& draws = {},
+                     const std::vector<identification::DriveEstimate>& random_samples = {},
                      const identification::IdentifiedParts& parts = {});
 
 /// The parts that a case takes from its records: what they show (identification::identified_parts)

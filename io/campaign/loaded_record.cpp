@@ -165,10 +165,10 @@ void recognise(const Case& antenna, std::vector<LoadedRecord>& works) {
 }
 
 void settle_conflicts(const Case& antenna, std::vector<LoadedRecord>& works) {
-  std::vector<identification::JudgedRecord> judged;
-  judged.reserve(works.size());
-  for (const LoadedRecord& work : works) judged.push_back({&work.raw, &work.clean});
-  const auto conflicts = identification::column_conflicts(judged);
+  std::vector<identification::EvaluatedRecord> evaluated;
+  evaluated.reserve(works.size());
+  for (const LoadedRecord& work : works) evaluated.push_back({&work.raw, &work.clean});
+  const auto conflicts = identification::column_conflicts(evaluated);
   if (!conflicts.refusal.empty()) {
     throw InvalidInput(fmt::format("{}: record_columns: {}", antenna.path, conflicts.refusal));
   }

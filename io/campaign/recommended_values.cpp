@@ -178,8 +178,8 @@ std::vector<SupersededInput> superseded_inputs(const Case& stated, const Campaig
   if (!recommended(section)) return {};
   const identification::GreyBoxResult& found = *section.grey_box;
   try {
-    return superseded_inputs(
-        stated, with_identified(stated, found.estimate, found.draws, taken_parts(stated, found)));
+    return superseded_inputs(stated, with_identified(stated, found.estimate, found.random_samples,
+                                                     taken_parts(stated, found)));
   } catch (const NumericalFailure&) {
     return {};
   }

@@ -45,8 +45,8 @@ std::vector<double> line_lengths(const Case& stated) {
   if (motors == 1) return {given.front()};
   std::vector<double> lengths;
   for (std::size_t i = 0; i < motors; ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(motors - 1);
-    lengths.push_back(given.front() + share * (given.back() - given.front()));
+    const double fraction = static_cast<double>(i) / static_cast<double>(motors - 1);
+    lengths.push_back(given.front() + fraction * (given.back() - given.front()));
   }
   return lengths;
 }

@@ -112,10 +112,10 @@ std::optional<Quantity> read_scale(TableReader& table, const std::string& key) {
 
 InstrumentsEntry read_instruments(TableReader& table) {
   InstrumentsEntry entry;
-  const Range share = Range::between(0.0, 0.5);
-  entry.pressure_gain = table.quantity("pressure_gain", Kind::number, share);
+  const Range fraction = Range::between(0.0, 0.5);
+  entry.pressure_gain = table.quantity("pressure_gain", Kind::number, fraction);
   entry.pressure_zero = table.quantity("pressure_zero", Kind::pressure, Range::not_negative(1e9));
-  entry.tachometer_gain = table.quantity("tachometer_gain", Kind::number, share);
+  entry.tachometer_gain = table.quantity("tachometer_gain", Kind::number, fraction);
   entry.pressure_range =
       table.optional_quantity("pressure_range", Kind::pressure, Range::positive(1e10));
   if (may_have(table, "rate_command_shaft")) {

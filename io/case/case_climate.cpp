@@ -19,7 +19,7 @@
 namespace boresight::io {
 namespace {
 
-double share(TableReader& entry) {
+double fraction(TableReader& entry) {
   const auto probability =
       entry.optional_quantity("probability", Kind::number, Range::positive(1.0));
   return probability ? probability->value : 1.0;
@@ -34,7 +34,7 @@ std::string way_of(const TableReader& entry) {
   if (found.size() == 1) return found.front();
   entry.refuse(
       "speed",
-      fmt::format("expected either a speed, or of a Weibull law scale and shape, or its "
+      fmt::format("expected either a speed, or of a Weibull distribution scale and shape, or its "
                   "mean, exceeded and exceeded_share, found {}",
                   found.empty() ? "none of them" : fmt::format("{}", fmt::join(found, " and "))));
 }
@@ -58,14 +58,15 @@ double shape_by_exceedance(const TableReader& entry, const Quantity& mean, const
   const double ratio = exceeded.value / mean.value;
   const auto found = design::weibull_shapes(ratio, exceeded_share.value);
   if (found.shapes.empty()) {
-    const bool more = exceeded_share.value > found.most_share;
+    const bool more = exceeded_share.value > found.max_fraction;
     entry.refuse(
         "exceeded_share",
-        fmt::format("expected a share of at {} {:.6g} %, which of Weibull laws with shapes "
-                    "from {:g} to {:g} lies above {:.4g} times the mean, found {}",
-                    more ? "most" : "least", 100.0 * (more ? found.most_share : found.least_share),
-                    design::lowest_shape_sought, design::highest_shape_sought, ratio,
-                    in_quotes(exceeded_share.text)));
+        fmt::format(
+            "expected a fraction of at {} {:.6g} %, which of Weibull distributions with shapes "
+            "from {:g} to {:g} lies above {:.4g} times the mean, found {}",
+            more ? "most" : "least", 100.0 * (more ? found.max_fraction : found.min_fraction),
+            design::lowest_shape_sought, design::highest_shape_sought, ratio,
+            in_quotes(exceeded_share.text)));
   }
   if (found.shapes.size() > 1) {
     entry.refuse("exceeded",
@@ -87,7 +88,7 @@ design::ClimatePart read_part(TableReader& entry, const WindEntry& wind) {
   const auto exceeded_share =
       entry.optional_quantity("exceeded_share", Kind::number, Range::positive(1.0));
   const auto highest = entry.optional_quantity("highest", Kind::speed, usual);
-  const double weight = share(entry);
+  const double weight = fraction(entry);
   entry.finish();
   check_keys_of_way(entry, way_of(entry));
   if (speed) return {at_dish_centre(wind, *speed).value, weight};
@@ -113,9 +114,9 @@ design::ClimatePart read_part(TableReader& entry, const WindEntry& wind) {
 
 // Speeds and weights of one part.
 std::vector<design::WeightedSpeed> speeds_of(const design::ClimatePart& part) {
-  const auto* law = std::get_if<design::WeibullClimate>(&part.winds);
-  if (law == nullptr) return {{std::get<double>(part.winds), part.weight}};
-  auto speeds = design::climate_speeds(*law);
+  const auto* controller = std::get_if<design::WeibullClimate>(&part.winds);
+  if (controller == nullptr) return {{std::get<double>(part.winds), part.weight}};
+  auto speeds = design::climate_speeds(*controller);
   for (auto& one : speeds) one.weight *= part.weight;
   return speeds;
 }
@@ -167,7 +168,7 @@ void read_climate(TableReader& wind, Case& antenna) {
   double weights = 0.0, squares = 0.0;
   for (auto& entry : wind.tables("attitude")) {
     const double coefficient = read_coefficient(entry, antenna, direction);
-    const double weight = share(entry);
+    const double weight = fraction(entry);
     entry.finish();
     weights += weight;
     // The torque's spectrum goes with the coefficient's square, and so does every loss.

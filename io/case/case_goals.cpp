@@ -31,13 +31,13 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
   take("phase_margin", Kind::angle, Range::positive(1.5), goals.phase_margin);
   take("bandwidth", Kind::bandwidth_frequency, Range::positive(1e4), goals.bandwidth);
   take("crest_factor", Kind::number, Range::between(1.0, 10.0), goals.crest_factor);
-  take("beam_rms", Kind::angle, Range::positive(1.0), goals.beam_rms);
+  take("beam_rms", Kind::angle, Range::positive(1.0), goals.boresight_rms);
   if (table.has("soft_goal") || table.optional_text("soft_goal")) {
     const std::string kind =
         table.choice("soft_goal", {"nominal", "expected", "worst_case", "quantile"});
-    for (const auto known : {SoftGoalKind::nominal, SoftGoalKind::expected,
-                             SoftGoalKind::worst_case, SoftGoalKind::quantile}) {
-      if (kind == to_string(known)) goals.soft_goal = known;
+    for (const auto known : {ObjectiveKind::nominal, ObjectiveKind::expected,
+                             ObjectiveKind::worst_case, ObjectiveKind::quantile}) {
+      if (kind == to_string(known)) goals.objective = known;
     }
   }
   if (table.has("rms_over") || table.optional_text("rms_over")) {
@@ -45,9 +45,9 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
   }
   if (const auto quantile =
           table.optional_quantity("quantile", Kind::number, Range::between(0.5, 0.999))) {
-    if (goals.soft_goal != SoftGoalKind::quantile) {
+    if (goals.objective != ObjectiveKind::quantile) {
       table.refuse("quantile", "expected it with the soft_goal 'quantile' only, found it with '" +
-                                   std::string(to_string(goals.soft_goal)) + "'");
+                                   std::string(to_string(goals.objective)) + "'");
     }
     goals.quantile = quantile->value;
   }
@@ -67,7 +67,7 @@ constexpr Range highest_range = Range::between(1.0, 1e4);
 
 }  // namespace
 
-std::string_view to_string(SoftGoalKind kind) {
+std::string_view to_string(ObjectiveKind kind) {
   static constexpr std::array names{"nominal", "expected", "worst_case", "quantile"};
   return names.at(static_cast<std::size_t>(kind));
 }
@@ -78,14 +78,14 @@ namespace {
 void read_matching(TableReader& file, Case& antenna) {
   const auto built = static_cast<long>(antenna.motor->flywheel_disks);
   const long usual_most = built > 0 ? 2 * built : 12;
-  std::optional<long> most;
+  std::optional<long> maximum;
   std::optional<long> step;
   if (auto matching = file.optional_table("matching")) {
-    most = matching->optional_integer("most_disks", 1, 10000);
-    step = matching->optional_integer("step", 1, most.value_or(usual_most));
+    maximum = matching->optional_integer("most_disks", 1, 10000);
+    step = matching->optional_integer("step", 1, maximum.value_or(usual_most));
     matching->finish();
   }
-  const long last = most.value_or(usual_most);
+  const long last = maximum.value_or(usual_most);
   const long by = step.value_or(std::max(1L, last / 6));
   for (long disks = 0; disks <= last; disks += by) {
     antenna.matching->disks.push_back(static_cast<double>(disks));
@@ -99,7 +99,7 @@ void read_goals(TableReader& file, Case& antenna) {
   GoalsEntry& goals = *antenna.goals;
   goals.sensitivity_peak = table.quantity("sensitivity_peak", Kind::number, peak_range);
   constexpr double usual_effort = 0.6 / 125.0;
-  goals.valve_effort =
+  goals.control_effort =
       table.quantity_or("valve_effort", Kind::angular_rate, effort_range,
                         usual_effort * antenna.drive->slew_rate.value * gear_ratio(antenna),
                         "usual: 0.6 rad/s with motors that turn at 125 rad/s at slew");
@@ -134,7 +134,7 @@ void change_goals(GoalsEntry& goals, const std::vector<std::string>& changes) {
     if (auto found = table.optional_quantity(key, kind, range)) goal = std::move(*found);
   };
   take("sensitivity_peak", Kind::number, peak_range, goals.sensitivity_peak);
-  take("valve_effort", Kind::angular_rate, effort_range, goals.valve_effort);
+  take("valve_effort", Kind::angular_rate, effort_range, goals.control_effort);
   take("lowest_frequency", Kind::frequency, lowest_range, goals.lowest_frequency);
   take("highest_frequency", Kind::frequency, highest_range, goals.highest_frequency);
   read_optional_goals(table, goals);

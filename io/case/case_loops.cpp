@@ -341,7 +341,7 @@ void read_ensemble(TableReader& file, Case& antenna) {
   auto table = file.optional_table("ensemble");
   if (!table) return;
   EnsembleEntry& ensemble = *antenna.ensemble;
-  ensemble.draws = table->optional_integer("draws", 1, 10000).value_or(0);
+  ensemble.random_samples = table->optional_integer("draws", 1, 10000).value_or(0);
   const Range factor = Range::between(0.05, 20.0);
   ensemble.structure_frequency = read_range(*table, "structure_frequency", Kind::number, factor);
   ensemble.oil_stiffness = read_range(*table, "oil_stiffness", Kind::number, factor);

@@ -312,8 +312,8 @@ void read_antenna(TableReader& file, Case& antenna) {
     table.refuse("y_angle", "expected it with axis = 'X', of an X-Y mount, only, found it with " +
                                 in_quotes(antenna.axis));
   }
-  constexpr double least_cosine = 0.05;
-  if (pointing_axis(antenna).boresight_factor < least_cosine) {
+  constexpr double min_cosine = 0.05;
+  if (pointing_axis(antenna).boresight_factor < min_cosine) {
     const bool azimuth = antenna.axis == "azimuth";
     table.refuse(azimuth ? "elevation" : "y_angle",
                  azimuth ? "expected one at which an azimuth axis moves the boresight, 3 deg or "
@@ -387,7 +387,7 @@ void read_structure(TableReader& file, Case& antenna) {
   TableReader table = file.table("structure");
   StructureEntry& structure = *antenna.structure;
   const Range damping = Range::between(0.0, 1.0);
-  const Range share = Range::between(0.0, 1.0);
+  const Range unit_range = Range::between(0.0, 1.0);
   const Range fractions = Range::positive(1.0);
   structure.locked_rotor_frequency =
       table.optional_quantity("locked_rotor_frequency", Kind::frequency, Range::positive(1000.0))
@@ -400,7 +400,7 @@ void read_structure(TableReader& file, Case& antenna) {
     take_modes_file(table, *modes_file, antenna);
   } else {
     structure.bull_gear_wind_fraction =
-        table.quantity("bull_gear_wind_fraction", Kind::number, share);
+        table.quantity("bull_gear_wind_fraction", Kind::number, unit_range);
     structure.bull_gear_beam_weight =
         table.quantity("bull_gear_beam_weight", Kind::number, Range::between(-10.0, 10.0));
     if (table.optional_text("mode_frequencies")) {
@@ -429,7 +429,7 @@ void read_structure(TableReader& file, Case& antenna) {
   }
   double fraction = 0.0;
   double wind = structure.bull_gear_wind_fraction.value;
-  double beam = structure.bull_gear_beam_weight.value;
+  double boresight = structure.bull_gear_beam_weight.value;
   for (auto& entry : table.tables("mode")) {
     StructureModeEntry mode;
     mode.frequency = entry.quantity("frequency", Kind::frequency, Range::positive(1000.0));
@@ -459,7 +459,7 @@ void read_structure(TableReader& file, Case& antenna) {
     check_fractions(entry, structure, mode);
     fraction += mode.effective_fraction.value_or(mode.inertia_fraction).value;
     wind += mode.wind_fraction.value;
-    beam += mode.beam_weight.value;
+    boresight += mode.beam_weight.value;
     structure.modes.push_back(std::move(mode));
   }
   table.finish();
@@ -470,11 +470,11 @@ void read_structure(TableReader& file, Case& antenna) {
                              "to 1, found {:.6g}",
                              wind));
   }
-  if (std::abs(beam - 1.0) > 1e-6) {
+  if (std::abs(boresight - 1.0) > 1e-6) {
     table.refuse("mode",
                  fmt::format("expected bull_gear_beam_weight and the modes' beam_weight to sum to "
                              "1, found {:.6g}",
-                             beam));
+                             boresight));
   }
   derive_locked_rotor_frequency(table, antenna);
   solve_motors_held(table, structure);

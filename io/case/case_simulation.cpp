@@ -27,11 +27,11 @@ void read_valve_stroke(TableReader& table, const Case& antenna, SimulationEntry&
 
 SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
   SimulationEntry entry;
-  const Range share = Range::between(0.0, 1.0);
+  const Range fraction = Range::between(0.0, 1.0);
   entry.return_pressure =
       table.quantity("return_pressure", Kind::pressure, Range::not_negative(1e8));
-  entry.null_leakage_share = table.quantity("null_leakage_share", Kind::number, share);
-  entry.case_leakage_share = table.quantity("case_leakage_share", Kind::number, share);
+  entry.null_leakage_share = table.quantity("null_leakage_share", Kind::number, fraction);
+  entry.case_leakage_share = table.quantity("case_leakage_share", Kind::number, fraction);
   read_valve_stroke(table, antenna, entry);
   entry.valve_stroke_time = table.quantity("valve_stroke_time", Kind::time, Range::positive(100.0));
   entry.valve_overlap = table.quantity("valve_overlap", Kind::number, Range::between(0.0, 0.5));
@@ -39,7 +39,7 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
       table.quantity("bristle_stiffness", Kind::stiffness, Range::positive(1e12));
   entry.bristle_damping =
       table.quantity("bristle_damping", Kind::viscous_friction, Range::not_negative(1e9));
-  entry.line_damping_ratio = table.quantity("line_damping_ratio", Kind::number, share);
+  entry.line_damping_ratio = table.quantity("line_damping_ratio", Kind::number, fraction);
   entry.makeup_pressure =
       table.quantity("makeup_pressure", Kind::pressure, Range::not_negative(1e8));
   entry.air_fraction = table.quantity("air_fraction", Kind::number, Range::between(0.0, 0.2));
@@ -71,9 +71,10 @@ SimulationEntry read_drive_details(TableReader& table, const Case& antenna) {
                  "expected a friction_curve.coulomb above 0 for the bristles to hold, found 0");
   }
   if (entry.null_leakage_share.value + entry.case_leakage_share.value > 1.0) {
-    table.refuse("case_leakage_share",
-                 "expected leakage shares that sum to at most 1, found more (the rest flows across "
-                 "the motors)");
+    table.refuse(
+        "case_leakage_share",
+        "expected leakage fractions that sum to at most 1, found more (the rest flows across "
+        "the motors)");
   }
   table.finish();
   return entry;

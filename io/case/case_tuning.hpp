@@ -35,7 +35,7 @@ struct RangeEntry {
 
 /// The uncertainty set; omitted ranges are those of the reference ensemble.
 struct EnsembleEntry {
-  long draws = 0;  // beside nominal and corners; 0: as the reference ensemble
+  long random_samples = 0;  // beside nominal and corners; 0: as the reference ensemble
   std::optional<RangeEntry> structure_frequency;  // factors
   std::optional<RangeEntry> oil_stiffness;        // factors
   std::optional<RangeEntry> leakage_rate;

@@ -20,8 +20,8 @@ std::vector<identification::SteadyFriction> steady_friction(
 
 bool is_loose(const identification::FrictionInterval& interval) {
   constexpr double widest_factor = 1.5;
-  return interval.least_open || interval.largest_open ||
-         interval.largest > widest_factor * interval.least;
+  return interval.min_open || interval.largest_open ||
+         interval.largest > widest_factor * interval.minimum;
 }
 
 std::optional<identification::FrictionInterval> loose_stribeck_rate(
@@ -37,7 +37,8 @@ std::string loose_stribeck_text(const FrictionCurveEntry& curve) {
   const auto rate = loose_stribeck_rate(curve);
   if (!rate) return "";
   return fmt::format(
-      "Hunting, reversals and what flywheels do to them hang on the friction curve's Stribeck rate "
+      "Limit cycles, reversals and what flywheels do to them depend on the friction curve's "
+      "Stribeck rate "
       "of {:.3g} rad/s, which the {} tests, as many as the curve has unknowns, leave at {} as one "
       "torque is moved by its uncertainty, or by half its last digit: more tests at low rates "
       "settle it.",
@@ -51,12 +52,12 @@ void conclude_friction_doubt(const Case& antenna, std::vector<std::string>& sent
 }
 
 std::string in_words(const identification::FrictionInterval& interval, std::string_view unit) {
-  if (interval.least == interval.largest && interval.least_open != interval.largest_open) {
-    return fmt::format("{:.3g} {} (its bound) or {}", interval.least, unit,
-                       interval.least_open ? "less" : "more");
+  if (interval.minimum == interval.largest && interval.min_open != interval.largest_open) {
+    return fmt::format("{:.3g} {} (its bound) or {}", interval.minimum, unit,
+                       interval.min_open ? "less" : "more");
   }
-  return fmt::format("{:.3g}{} to {:.3g} {}{}", interval.least,
-                     interval.least_open ? " (its bound)" : "", interval.largest, unit,
+  return fmt::format("{:.3g}{} to {:.3g} {}{}", interval.minimum,
+                     interval.min_open ? " (its bound)" : "", interval.largest, unit,
                      interval.largest_open ? " (its bound)" : "");
 }
 

@@ -24,10 +24,10 @@ design::Ends both(const design::Ends& one, const design::Ends& other) {
 
 // Of a number, `scale` times the factors about 1 that its stated uncertainty leaves.
 design::Ends spread(const Quantity& quantity, double scale) {
-  constexpr double least = 0.05;
+  constexpr double minimum = 0.05;
   if (!quantity.uncertainty_given) return {scale, scale};
   const double half = std::numbers::sqrt3 * relative_uncertainty(quantity);
-  return {scale * std::max(1.0 - half, least), scale * (1.0 + half)};
+  return {scale * std::max(1.0 - half, minimum), scale * (1.0 + half)};
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include <boresight/io/case/case_pointing.hpp>
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/case_wind.hpp>
-#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/guessed_fractions.hpp>
 #include <boresight/io/case/member_ranges.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
@@ -58,13 +58,13 @@ std::vector<design::WeightedWind> climate_of(const Case& stated) {
   return winds;
 }
 
-design::HardGoals stated_constraints_of(const GoalsEntry& entry) {
-  design::HardGoals goals;
+design::Constraints stated_constraints_of(const GoalsEntry& entry) {
+  design::Constraints goals;
   for (std::size_t b = 0; b < goals.sensitivity_peak.size(); ++b) {
     const auto& own = entry.peak_at_break.at(b);
     goals.sensitivity_peak.at(b) = own ? own->value : entry.sensitivity_peak.value;
   }
-  goals.valve_effort = entry.valve_effort.value;
+  goals.control_effort = entry.control_effort.value;
   if (entry.gain_margin) goals.gain_margin.fill(std::pow(10.0, entry.gain_margin->value / 20.0));
   if (entry.phase_margin) goals.phase_margin.fill(entry.phase_margin->value);
   if (entry.bandwidth) goals.bandwidth = entry.bandwidth->value;
@@ -72,20 +72,20 @@ design::HardGoals stated_constraints_of(const GoalsEntry& entry) {
   return goals;
 }
 
-design::SoftGoal objective_of(const GoalsEntry& entry) {
-  design::SoftGoal soft;
+design::Objective objective_of(const GoalsEntry& entry) {
+  design::Objective soft;
   soft.quantile = entry.quantile;
-  switch (entry.soft_goal) {
-    case SoftGoalKind::nominal:
+  switch (entry.objective) {
+    case ObjectiveKind::nominal:
       break;
-    case SoftGoalKind::expected:
-      soft.kind = design::SoftGoalKind::expected;
+    case ObjectiveKind::expected:
+      soft.kind = design::ObjectiveKind::expected;
       break;
-    case SoftGoalKind::worst_case:
-      soft.kind = design::SoftGoalKind::worst_case;
+    case ObjectiveKind::worst_case:
+      soft.kind = design::ObjectiveKind::worst_case;
       break;
-    case SoftGoalKind::quantile:
-      soft.kind = design::SoftGoalKind::quantile;
+    case ObjectiveKind::quantile:
+      soft.kind = design::ObjectiveKind::quantile;
       break;
   }
   return soft;
@@ -99,8 +99,8 @@ double stated_uncertainty(const Quantity& quantity) {
 design::AntennaUncertainty uncertainty_of(const Case& stated) {
   design::AntennaUncertainty uncertainty;
   uncertainty.ranges = member_ranges(stated);
-  if (stated.ensemble->draws > 0) {
-    uncertainty.draws = static_cast<std::size_t>(stated.ensemble->draws);
+  if (stated.ensemble->random_samples > 0) {
+    uncertainty.random_samples = static_cast<std::size_t>(stated.ensemble->random_samples);
   }
   uncertainty.antenna_inertia = relative_uncertainty(stated.antenna->inertia);
   uncertainty.motor_inertia = relative_uncertainty(stated.motor->inertia);
@@ -122,9 +122,9 @@ std::vector<design::AlternativeAntenna> alternatives_of(const Case& stated) {
         {"antenna inertia of " + alternative.name, changes_of(stated, alternative)});
   }
   for (const auto place : other_guesses) {
-    if (!moves_guessed_shares(*stated.structure, place)) continue;
+    if (!moves_guessed_fractions(*stated.structure, place)) continue;
     alternatives.push_back(
-        {std::string(to_string(place)), guessed_share_changes(*stated.structure, place)});
+        {std::string(to_string(place)), guessed_fraction_changes(*stated.structure, place)});
   }
   return alternatives;
 }
@@ -150,20 +150,20 @@ design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& 
   return tracking_problem(asked_of(antenna), other);
 }
 
-double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
+double torque_limited_wind_speed(const Case& antenna, const design::TrackingProblem& problem) {
   design::Mission mission;
   mission.antenna = drive_of(antenna);
   mission.wind = problem.wind;
   return torque_limited_wind_speed(mission);
 }
 
-design::HardGoals make_goals(const Case& antenna) {
+design::Constraints make_goals(const Case& antenna) {
   design::Mission mission = asked_of(antenna);
   mission.antenna = drive_of(antenna);
   return constraints(mission);
 }
 
-design::SoftGoal make_soft_goal(const Case& antenna) {
+design::Objective make_objective(const Case& antenna) {
   return objective_of(*antenna.goals);
 }
 
@@ -246,7 +246,7 @@ design::Mission mission_of(const Case& stated) {
   mission.bands = make_bands(stated);
   mission.budgets = make_budgets(stated);
   mission.objective = objective_of(*stated.goals);
-  if (stated.goals->beam_rms) mission.rms_goal = stated.goals->beam_rms->value;
+  if (stated.goals->boresight_rms) mission.rms_goal = stated.goals->boresight_rms->value;
   mission.minimises_climate = stated.goals->over_climate;
   mission.structures = asked_structures(stated);
   for (const auto& structure : usual_structures_with_lag(stated)) {
@@ -263,7 +263,7 @@ design::Mission mission_of(const Case& stated) {
     }
   }
   mission.starts = static_cast<int>(stated.tuning->starts);
-  if (!stated.matching->disks.empty()) mission.most_disks = stated.matching->disks.back();
+  if (!stated.matching->disks.empty()) mission.max_disks = stated.matching->disks.back();
   return mission;
 }
 

@@ -28,16 +28,16 @@ design::TrackingProblem make_problem(const Case& antenna,
 design::TrackingProblem make_problem(const Case& antenna, const plant::Antenna& other);
 
 /// Mean wind speed (m/s) at which the mean wind torque uses all available wind torque
-/// (torque_for_wind): the supply's torque less friction at the tracking rate and offset torque. 0
-/// if nothing is available, infinite without mean torque.
-double supply_wind_speed(const Case& antenna, const design::TrackingProblem& problem);
+/// (available_wind_torque): the supply's torque less friction at the tracking rate and offset
+/// torque. 0 if nothing is available, infinite without mean torque.
+double torque_limited_wind_speed(const Case& antenna, const design::TrackingProblem& problem);
 
 /// Constraints against saturation: valve demand within the valve's stroke (largest_demand), and
 /// torque within the available wind torque, the supply's less friction and offset
-/// (torque_for_wind).
+/// (available_wind_torque).
 /// @throws InvalidInput for a crest_factor if no torque is available.
-design::HardGoals make_goals(const Case& antenna);
-design::SoftGoal make_soft_goal(const Case& antenna);
+design::Constraints make_goals(const Case& antenna);
+design::Objective make_objective(const Case& antenna);
 
 /// The winds of the site with their fractions of the time; empty if the case does not state them.
 std::vector<design::WeightedWind> make_climate(const Case& antenna);

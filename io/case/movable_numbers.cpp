@@ -11,7 +11,7 @@
 #include <boresight/io/case/case_sensors.hpp>
 #include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/case_wind.hpp>
-#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/guessed_fractions.hpp>
 #include <boresight/io/case/movable_numbers.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
@@ -20,7 +20,7 @@
 namespace boresight::io {
 namespace {
 
-constexpr double unstated_share = 0.1;
+constexpr double unstated_fraction = 0.1;
 
 // A number as the case states it, and where it works.
 struct Input {
@@ -94,17 +94,18 @@ std::vector<Input> linear_inputs(Case& c) {
 }
 
 // A share of wind or beam, and of the inertia that the same body has.
-struct Share {
+struct Fraction {
   double* value;
   double inertia_fraction;
 };
 
 // Bull gear's and modes' shares of wind and beam, each of which sum to 1.
-std::array<std::vector<Share>, 2> shares(StructureEntry& structure) {
+std::array<std::vector<Fraction>, 2> fractions(StructureEntry& structure) {
   double bull_gear = 1.0;
   for (const auto& mode : structure.modes) bull_gear -= mode.inertia_fraction.value;
-  std::array<std::vector<Share>, 2> groups{{{{&structure.bull_gear_wind_fraction.value, bull_gear}},
-                                            {{&structure.bull_gear_beam_weight.value, bull_gear}}}};
+  std::array<std::vector<Fraction>, 2> groups{
+      {{{&structure.bull_gear_wind_fraction.value, bull_gear}},
+       {{&structure.bull_gear_beam_weight.value, bull_gear}}}};
   for (auto& mode : structure.modes) {
     groups[0].push_back({&mode.wind_fraction.value, mode.inertia_fraction.value});
     groups[1].push_back({&mode.beam_weight.value, mode.inertia_fraction.value});
@@ -114,14 +115,14 @@ std::array<std::vector<Share>, 2> shares(StructureEntry& structure) {
 
 // What a share gains the others lose in proportion to what they have; what it loses goes to their
 // inertias, as little of the wind acts on a light body that had little of it.
-void make_room(std::vector<Share>& group, const double* moved, double by) {
+void make_room(std::vector<Fraction>& group, const double* moved, double by) {
   double others = 0.0, inertia = 0.0;
-  for (const Share& one : group) {
+  for (const Fraction& one : group) {
     if (one.value == moved) continue;
     others += *one.value;
     inertia += one.inertia_fraction;
   }
-  for (const Share& one : group) {
+  for (const Fraction& one : group) {
     if (one.value == moved) continue;
     if (by < 0.0 && inertia > 0.0) {
       *one.value -= by * one.inertia_fraction / inertia;
@@ -132,24 +133,25 @@ void make_room(std::vector<Share>& group, const double* moved, double by) {
 }
 
 // Of the body whose share of wind or beam this is; none of any other number.
-std::optional<double> inertia_fraction_of(const StructureEntry& structure, const Quantity& share) {
+std::optional<double> inertia_fraction_of(const StructureEntry& structure,
+                                          const Quantity& fraction) {
   double bull_gear = 1.0;
   for (const auto& mode : structure.modes) {
-    if (&share == &mode.wind_fraction || &share == &mode.beam_weight) {
+    if (&fraction == &mode.wind_fraction || &fraction == &mode.beam_weight) {
       return mode.inertia_fraction.value;
     }
     bull_gear -= mode.inertia_fraction.value;
   }
-  const bool of_bull_gear =
-      &share == &structure.bull_gear_wind_fraction || &share == &structure.bull_gear_beam_weight;
+  const bool of_bull_gear = &fraction == &structure.bull_gear_wind_fraction ||
+                            &fraction == &structure.bull_gear_beam_weight;
   return of_bull_gear ? std::optional(bull_gear) : std::nullopt;
 }
 
 // Of a mode's share: an entry of frequencies with the motors held has shares of another mode.
-std::optional<std::size_t> mode_of(const StructureEntry& structure, const Quantity& share) {
+std::optional<std::size_t> mode_of(const StructureEntry& structure, const Quantity& fraction) {
   for (std::size_t i = 0; i < structure.modes.size(); ++i) {
     const auto& mode = structure.modes[i];
-    if (&share == &mode.wind_fraction || &share == &mode.beam_weight) return i;
+    if (&fraction == &mode.wind_fraction || &fraction == &mode.beam_weight) return i;
   }
   return std::nullopt;
 }
@@ -157,28 +159,28 @@ std::optional<std::size_t> mode_of(const StructureEntry& structure, const Quanti
 // A guess of a share may as well be the inertia fraction, and as wrong the other way; by half of it
 // where it is that fraction. One above 1, which balances a negative one, is as much as that makes
 // it.
-std::pair<double, double> guessed_range(double share, double inertia_fraction) {
+std::pair<double, double> guessed_range(double fraction, double inertia_fraction) {
   constexpr double half = 0.5;
-  const double by = std::max(std::abs(share - inertia_fraction), half * share);
+  const double by = std::max(std::abs(fraction - inertia_fraction), half * fraction);
   constexpr double rounding = 1e-9;
-  const double lower = share - by;
-  return {lower > rounding ? lower : 0.0, std::max(std::min(share + by, 1.0), share)};
+  const double lower = fraction - by;
+  return {lower > rounding ? lower : 0.0, std::max(std::min(fraction + by, 1.0), fraction)};
 }
 
 // How far a number is moved; by nothing where nothing says how far.
 MovableNumber planned(const Case& antenna, const Quantity& stated) {
   MovableNumber number;
   number.quantity = stated;
-  number.share_of_mode = mode_of(*antenna.structure, stated);
+  number.fraction_of_mode = mode_of(*antenna.structure, stated);
   number.unstated = is_unbounded_guess(stated);
   const auto fraction = inertia_fraction_of(*antenna.structure, stated);
-  if (fraction && is_guessed_share(stated)) {
+  if (fraction && is_guessed_fraction(stated)) {
     number.range = guessed_range(stated.value, *fraction);
     number.moved_by =
         std::max(stated.value - number.range->first, number.range->second - stated.value);
   } else if (stated.value != 0.0) {
     number.moved_by =
-        number.unstated ? unstated_share * std::abs(stated.value) : stated.standard_uncertainty;
+        number.unstated ? unstated_fraction * std::abs(stated.value) : stated.standard_uncertainty;
   }
   return number;
 }
@@ -188,8 +190,9 @@ void move(Case& antenna, std::size_t which, double by) {
   double* moved = input.value;
   // A number that works converted, as of a wind mast, moves by the same share.
   if (input.stated->value != 0.0) by *= *moved / input.stated->value;
-  for (auto& group : shares(*antenna.structure)) {
-    if (std::ranges::find(group, moved, &Share::value) != group.end()) make_room(group, moved, by);
+  for (auto& group : fractions(*antenna.structure)) {
+    if (std::ranges::find(group, moved, &Fraction::value) != group.end())
+      make_room(group, moved, by);
   }
   *moved += by;
   StructureEntry& structure = *antenna.structure;

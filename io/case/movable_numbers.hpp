@@ -15,7 +15,7 @@ struct MovableNumber {
   Quantity quantity;
   std::size_t place = 0;  // among the case's such numbers
   /// The mode, for a mode's wind fraction or beam weight.
-  std::optional<std::size_t> share_of_mode;
+  std::optional<std::size_t> fraction_of_mode;
   /// Step to either side, in the SI unit (Hz for frequencies): the case's standard uncertainty;
   /// else, for an assumed value, a tenth of it; else the rounding of the printed digits.
   double moved_by = 0.0;

@@ -76,7 +76,7 @@ std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inert
   return plant::disks_at_unit_ratio(drive_of(antenna), load_inertia);
 }
 
-double torque_for_wind(const Case& antenna) {
+double available_wind_torque(const Case& antenna) {
   return plant::available_wind_torque(drive_of(antenna));
 }
 

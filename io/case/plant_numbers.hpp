@@ -39,7 +39,7 @@ std::optional<double> disks_at_unit_ratio(const Case& antenna, double load_inert
 /// What is left of the supply torque against wind (N m): the supply's less the friction at the
 /// tracking rate and the magnitude of the offset torque at antenna.elevation, since the wind may
 /// blow the way that both resist; 0 where they take all of it.
-double torque_for_wind(const Case& antenna);
+double available_wind_torque(const Case& antenna);
 
 /// The largest rate (rad/s of motor) that may be asked of the valve: simulation.valve_stroke; else
 /// by its rated flow; else what the slew rate takes.

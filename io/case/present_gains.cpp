@@ -22,11 +22,11 @@ std::string unit_of(const std::string& written) {
   return unit;
 }
 
-control::ControlLaw law_of(const control::LoopStructure& structure,
-                           const std::vector<Quantity>& gains) {
-  control::ControlLaw law{structure, {}};
-  for (const auto& gain : gains) law.gains.push_back(gain.value);
-  return law;
+control::Controller controller_of(const control::LoopStructure& structure,
+                                  const std::vector<Quantity>& gains) {
+  control::Controller controller{structure, {}};
+  for (const auto& gain : gains) controller.gains.push_back(gain.value);
+  return controller;
 }
 
 }  // namespace
@@ -48,14 +48,14 @@ GainUnits::GainUnits(const Case& stated) {
   }
 }
 
-std::vector<std::string> GainUnits::texts(const control::ControlLaw& law) const {
-  const auto written = std::ranges::find(written_, law.structure, &Written::structure);
-  const auto& descriptions = law.structure.gains();
+std::vector<std::string> GainUnits::texts(const control::Controller& controller) const {
+  const auto written = std::ranges::find(written_, controller.structure, &Written::structure);
+  const auto& descriptions = controller.structure.gains();
   std::vector<std::string> texts;
-  for (std::size_t i = 0; i < law.gains.size(); ++i) {
+  for (std::size_t i = 0; i < controller.gains.size(); ++i) {
     Unit unit{descriptions[i].unit == "1" ? "" : descriptions[i].unit};
     if (written != written_.end()) unit = written->units.at(i);
-    texts.push_back(fmt::format("{:.5g}{}{}", law.gains[i] / unit.factor,
+    texts.push_back(fmt::format("{:.5g}{}{}", controller.gains[i] / unit.factor,
                                 unit.symbol.empty() ? "" : " ", unit.symbol));
   }
   return texts;
@@ -66,7 +66,7 @@ std::vector<design::NamedController> present_controllers(const Case& stated) {
   const auto add = [&](const control::LoopStructure& structure,
                        const std::vector<Quantity>& gains) {
     if (gains.empty()) return;
-    controllers.push_back({short_name(structure), law_of(structure, gains)});
+    controllers.push_back({short_name(structure), controller_of(structure, gains)});
   };
   if (stated.present_gains) add(stated.present_gains->structure, stated.present_gains->gains);
   for (const auto& loop : stated.loops) add(loop.structure, loop.present);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/mission.hpp>
 #include <boresight/io/case/case_declaration.hpp>
 
@@ -18,7 +18,7 @@ class GainUnits {
   explicit GainUnits(const Case& stated);
 
   /// The gains in the structure's order: "0.127 Hz".
-  std::vector<std::string> texts(const control::ControlLaw& law) const;
+  std::vector<std::string> texts(const control::Controller& controller) const;
 
  private:
   struct Unit {

@@ -20,12 +20,13 @@ bool rings_as_rigid(const Case& antenna) {
   const plant::PlantMode hydraulic = plant::hydraulic_mode(modes);
   const bool of_it =
       !antenna.resonance->of_oil || plant::mode_of_oil(modes).frequency == hydraulic.frequency;
-  return of_it && hydraulic.oil_share >= half;
+  return of_it && hydraulic.oil_fraction >= half;
 }
 
 bool little_of_oil(const plant::PlantMode& mode, const plant::PlantMode& mode_of_oil) {
-  if (mode.damping_ratio >= 1.0 || mode.oil_share < 0.0 || mode.gear_share < 0.0) return false;
-  return mode.oil_share < half && mode_of_oil.oil_share > mode.oil_share;
+  if (mode.damping_ratio >= 1.0 || mode.oil_fraction < 0.0 || mode.gear_fraction < 0.0)
+    return false;
+  return mode.oil_fraction < half && mode_of_oil.oil_fraction > mode.oil_fraction;
 }
 
 }  // namespace boresight::io

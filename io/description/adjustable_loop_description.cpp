@@ -10,7 +10,7 @@ namespace {
 namespace unit = key_units;
 
 constexpr NumberForm positive{.above = 0.0, .finite = true};
-constexpr NumberForm not_negative{.least = 0.0, .finite = true};
+constexpr NumberForm not_negative{.minimum = 0.0, .finite = true};
 constexpr NumberForm known{.finite = true};
 constexpr KeyUnit inertia_unit{.suffix = "kg_m2"};
 constexpr KeyUnit stiffness_unit{.suffix = "N_m_per_rad"};
@@ -30,13 +30,13 @@ struct Block {
   std::vector<Gain> gains;
 };
 
-std::vector<Block> blocks_of(const control::ControlLaw& law) {
+std::vector<Block> blocks_of(const control::Controller& controller) {
   std::vector<Block> blocks;
   std::size_t next = 0;
-  for (const auto& block : law.structure.blocks()) {
+  for (const auto& block : controller.structure.blocks()) {
     Block described{block.path, block.kind, {}};
     for (const auto& gain : block.gains) {
-      if (next < law.gains.size()) described.gains.push_back({gain, law.gains[next]});
+      if (next < controller.gains.size()) described.gains.push_back({gain, controller.gains[next]});
       ++next;
     }
     blocks.push_back(std::move(described));
@@ -118,7 +118,7 @@ void describe_wind(Visitor& v, const design::WindCondition& wind) {
 void describe(Visitor& v, const design::AdjustableLoop& loop) {
   const design::TrackingProblem& problem = loop.problem;
   v.text("structure", loop.structure, "As --structure takes it.");
-  v.list("blocks", blocks_of(loop.law), "Factors of the compensators.",
+  v.list("blocks", blocks_of(loop.controller), "Factors of the compensators.",
          [&](const Block& block) { describe_block(v, block); });
   v.group("drive", "Oil, motors, valve and tachometer.",
           [&] { describe_drive(v, problem.plant.drive); });
@@ -141,7 +141,7 @@ void describe(Visitor& v, const design::AdjustableLoop& loop) {
   v.count("points_per_decade", problem.points_per_decade, "Of the frequency grid.");
   v.group("limits", "Constraints.", [&] {
     describe_breaks(v, loop.goals);
-    v.number("valve_effort", loop.goals.valve_effort, unit::radian_per_second,
+    v.number("control_effort", loop.goals.control_effort, unit::radian_per_second,
              "Largest rms of the valve command from sensor noise.", positive);
   });
 }

@@ -9,7 +9,7 @@ namespace {
 
 namespace unit = key_units;
 
-constexpr NumberForm positive{.least = 0.0};
+constexpr NumberForm positive{.minimum = 0.0};
 
 // One cut of the loop: the certified peak of its sensitivity, and its margins.
 struct DesignBreak {
@@ -52,13 +52,13 @@ void describe_usual_gains(Visitor& v) {
   });
 }
 
-void describe_gains(Visitor& v, const control::ControlLaw& law) {
+void describe_gains(Visitor& v, const control::Controller& controller) {
   const auto describe_them = [&] {
-    const auto& descriptions = control::gain_descriptions(law.structure);
-    for (std::size_t i = 0; i < law.gains.size(); ++i) {
+    const auto& descriptions = control::gain_descriptions(controller.structure);
+    for (std::size_t i = 0; i < controller.gains.size(); ++i) {
       std::string key = descriptions[i].name;
       std::ranges::replace(key, ' ', '_');
-      v.number(key, law.gains[i], gain_unit(descriptions[i].unit), descriptions[i].symbol);
+      v.number(key, controller.gains[i], gain_unit(descriptions[i].unit), descriptions[i].symbol);
     }
   };
   v.numbers_by_name(
@@ -93,7 +93,7 @@ void describe_breaks(Visitor& v, const design::Design& design) {
              describe(v, one.margins);
            });
          },
-         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
+         {.minimum = control::loop_breaks.size(), .maximum = control::loop_breaks.size()});
 }
 
 void describe_check(Visitor& v, const design::Verification& check) {
@@ -119,20 +119,20 @@ void describe(Visitor& v, const plant::PlantMode& mode) {
   v.number("pole_imaginary", mode.pole.imag(), unit::radian_per_second,
            "Imaginary part of the pole.");
   v.number("participation", mode.participation, unit::ratio,
-           "Share of the described part in the mode, 0 to 1.", positive);
-  v.number("oil_share", mode.oil_share, unit::ratio,
-           "d ln frequency^2/d ln oil stiffness; without damping the oil spring's share of the "
+           "Fraction of the described part in the mode, 0 to 1.", positive);
+  v.number("oil_fraction", mode.oil_fraction, unit::ratio,
+           "d ln frequency^2/d ln oil stiffness; without damping the oil spring's fraction of the "
            "mode's elastic energy.");
-  v.number("gear_share", mode.gear_share, unit::ratio, "The same of the gear spring.");
+  v.number("gear_fraction", mode.gear_fraction, unit::ratio, "The same of the gear spring.");
 }
 
 void describe(Visitor& v, const design::Design& design) {
   const auto& tuning = design.tuning;
   const auto& check = design.verification;
-  v.defined_as("design", "One tuned and verified control law. Angles at the sky, one axis.");
-  v.text("structure", control::to_string(tuning.law.structure),
+  v.defined_as("design", "One tuned and verified controller. Angles at the sky, one axis.");
+  v.text("structure", control::to_string(tuning.controller.structure),
          "Loop structure, a usual one or the case's own.");
-  v.flag("feasible", tuning.status == design::TuningStatus::optimal, "Every hard goal is met.");
+  v.flag("feasible", tuning.status == design::TuningStatus::optimal, "Every constraint is met.");
   v.flag("verified", check.passed,
          "Confirmed apart from the tuner: eigenvalues stable, peaks within goals, rms by Lyapunov "
          "equation and by spectrum within 0.5 %.");
@@ -140,19 +140,19 @@ void describe(Visitor& v, const design::Design& design) {
   v.group("gains",
           "rate: kr (1 + wi/s)(1 + s/wz)/(1 + s/wp), pressure: kT s/(s + wd), position: kp (1 + "
           "wip/s), compliance: cs/(1 + s/wcs), notch; others of structures of the case's own.",
-          [&] { describe_gains(v, tuning.law); });
-  v.number("beam_rms", design.beam_rms, unit::millidegree, "Beam error in wind and sensor noise.",
-           positive);
+          [&] { describe_gains(v, tuning.controller); });
+  v.number("boresight_rms", design.boresight_rms, unit::millidegree,
+           "Boresight error in wind and sensor noise.", positive);
   v.number("wind_rms", design.wind_rms, unit::millidegree, "Its part by wind.", positive);
   v.number("noise_rms", design.noise_rms, unit::millidegree, "Its part by sensor noise.", positive);
-  v.number("valve_effort", design.valve_effort, unit::radian_per_second,
+  v.number("control_effort", design.control_effort, unit::radian_per_second,
            "Rms of the noise-driven valve command, as no-load motor rate.", positive);
   describe_breaks(v, design);
   v.object("hydraulic_mode", design.hydraulic_mode,
            "The lowest mode of the plant that moves the oil.");
-  v.texts("active_goals", tuning.active_goals, "Goals that limit the design.");
+  v.texts("active_constraints", tuning.active_constraints, "Goals that limit the design.");
   v.texts("gains_at_bound", tuning.gains_at_bound, "Gains at an end of the range searched.");
-  v.number("worst_goal_ratio", tuning.worst_goal_ratio, unit::ratio,
+  v.number("worst_constraint", tuning.worst_constraint, unit::ratio,
            "Largest of value over goal; above 1 if infeasible.", positive);
   v.count("starts", tuning.starts, "Starting points of the search.");
   v.count("starts_at_optimum", tuning.starts_at_optimum, "Starts that ended at the best design.");
@@ -161,26 +161,28 @@ void describe(Visitor& v, const design::Design& design) {
 }
 
 void describe(Visitor& v, const design::EnsembleResult& ensemble) {
-  v.defined_as("ensemble", "A law's gains held on plants that may be the true one.");
+  v.defined_as("ensemble", "A controller with fixed gains on the ensemble members.");
   v.count("stable", ensemble.stable, "Members on which the loop is stable.");
-  v.count("within_goals", ensemble.within_goals, "Members that meet every hard goal.");
-  v.number("least_beam_rms", ensemble.least_rms, unit::millidegree, "Of the stable members.");
-  v.number("median_beam_rms", ensemble.median_rms, unit::millidegree, "Of the stable members.");
-  v.number("quantile_95_beam_rms", ensemble.high_rms, unit::millidegree,
+  v.count("within_constraints", ensemble.within_constraints, "Members that meet every constraint.");
+  v.number("min_boresight_rms", ensemble.min_rms, unit::millidegree, "Of the stable members.");
+  v.number("median_boresight_rms", ensemble.median_rms, unit::millidegree,
+           "Of the stable members.");
+  v.number("quantile_95_boresight_rms", ensemble.high_rms, unit::millidegree,
            "95 % of the stable members are below.");
-  v.number("largest_beam_rms", ensemble.largest_rms, unit::millidegree, "Of the stable members.");
+  v.number("largest_boresight_rms", ensemble.largest_rms, unit::millidegree,
+           "Of the stable members.");
   v.text("worst",
          ensemble.members.empty() ? std::string_view()
                                   : std::string_view(ensemble.members.at(ensemble.worst).name),
          "The member farthest from its goals.");
   v.list("members", ensemble.members, "One a plant.", [&](const design::MemberResult& member) {
-    v.text("name", member.name, "Which draw.");
+    v.text("name", member.name, "Which sample.");
     v.flag("stable", member.stable, "By eigenvalues.");
-    v.number("beam_rms", member.beam_rms, unit::millidegree, "Null if unstable.");
+    v.number("boresight_rms", member.boresight_rms, unit::millidegree, "Null if unstable.");
     v.numbers("sensitivity_peaks", member.sensitivity_peaks, unit::ratio,
               "Rate loop alone, valve command, position loop.");
-    v.number("valve_effort", member.valve_effort, unit::radian_per_second, "Rms from noise.");
-    v.number("worst_goal_ratio", member.worst_goal_ratio, unit::ratio,
+    v.number("control_effort", member.control_effort, unit::radian_per_second, "Rms from noise.");
+    v.number("worst_constraint", member.worst_constraint, unit::ratio,
              "Largest quantity over its goal; null if unstable.");
   });
 }

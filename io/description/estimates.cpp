@@ -14,16 +14,16 @@ void members_of_distribution(Visitor& v, const design::DistributionSummary& summ
                              const KeyUnit& unnamed) {
   v.defined_as("distribution",
                "Over plants that are stable, in the unit of the key that holds it.");
-  v.count("plants", summary.draws, "That it is over.");
+  v.count("plants", summary.random_samples, "That it is over.");
   describe_estimate(v, "mean", summary.mean, unnamed, "Arithmetic.");
   describe_estimate(v, "standard_deviation", summary.standard_deviation, unnamed, "By n - 1.");
-  v.number("least", summary.least, unnamed, "Of all.");
+  v.number("minimum", summary.minimum, unnamed, "Of all.");
   v.number("largest", summary.largest, unnamed, "Of all.");
-  v.list("quantiles", summary.quantiles, "By rising share.",
+  v.list("quantiles", summary.quantiles, "By rising fraction.",
          [&](const design::EstimatedQuantile& quantile) {
-           v.defined_as("quantile", "A value that a share of the plants does not exceed.");
-           v.number("share", quantile.share, key_units::ratio, "Of the plants.",
-                    {.least = 0.0, .most = 1.0, .finite = true});
+           v.defined_as("quantile", "A value that a fraction of the plants does not exceed.");
+           v.number("fraction", quantile.fraction, key_units::ratio, "Of the plants.",
+                    {.minimum = 0.0, .maximum = 1.0, .finite = true});
            members_of_estimate(v, quantile.number, unnamed);
          });
 }
@@ -34,8 +34,8 @@ void describe_estimate(Visitor& v, std::string_view key, const design::Estimated
                        const KeyUnit& unit, std::string_view meaning) {
   v.group(key_with_unit(key, unit), meaning, [&] {
     v.defined_as("estimate",
-                 "A number from the draws with the interval that holds the truth in 95 % of such "
-                 "studies; null: unbounded, or too few draws.");
+                 "A number from the samples with the interval that holds the truth in 95 % of such "
+                 "studies; null: unbounded, or too few samples.");
     members_of_estimate(v, estimate, without_suffix(unit));
   });
 }

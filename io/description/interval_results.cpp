@@ -11,7 +11,7 @@ void describe_members(Visitor& v, const numerics::Interval& interval, std::strin
   v.text("unit", unit.empty() ? "1" : unit, "The unit; 1 for none.");
   v.number("value", interval.value, as_named, "The value.");
   v.number("standard_uncertainty", interval.standard_uncertainty, as_named, "1 sigma.",
-           {.least = 0.0});
+           {.minimum = 0.0});
   v.number("lower_95", interval.lower, as_named, "Lower end.");
   v.number("upper_95", interval.upper, as_named, "Upper end; null where it has none.");
 }

@@ -25,7 +25,7 @@ void describe_break(Visitor& v, std::string_view key, control::LoopBreak loop_br
          "Where the loop is cut.");
 }
 
-void describe_breaks(Visitor& v, const design::HardGoals& goals) {
+void describe_breaks(Visitor& v, const design::Constraints& goals) {
   std::vector<BreakGoals> breaks;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     breaks.push_back({control::loop_breaks.at(b), goals.sensitivity_peak.at(b),
@@ -40,7 +40,7 @@ void describe_breaks(Visitor& v, const design::HardGoals& goals) {
                     "Least, up and down; null: none asked for.");
            v.number("phase_margin", one.phase_margin, unit::degree, "Least; null: none asked for.");
          },
-         {.least = control::loop_breaks.size(), .most = control::loop_breaks.size()});
+         {.minimum = control::loop_breaks.size(), .maximum = control::loop_breaks.size()});
 }
 
 void describe(Visitor& v, const control::Margins& margins) {
@@ -52,26 +52,26 @@ void describe(Visitor& v, const control::Margins& margins) {
            {.column = {"gain down dB", 1}});
   v.number("modulus_margin", margins.distance_to_minus_one(), unit::ratio,
            "Smallest |1 + L|, the loop's distance from -1: the inverse of the largest |S|.",
-           {.least = 0.0, .column = {"modulus", 3}});
+           {.minimum = 0.0, .column = {"modulus", 3}});
   v.number("phase_margin", margins.phase_margin_deg, unit::degree_as_kept,
            "Smallest over the gain crossovers; 180 without any.", {.column = {"phase deg", 1}});
   v.number("delay_margin", margins.delay_margin, unit::second,
            "Smallest extra dead time that makes the loop unstable, if any does.",
-           {.least = 0.0, .column = {"delay ms", 1, 1e3}});
+           {.minimum = 0.0, .column = {"delay ms", 1, 1e3}});
 }
 
 void describe_sensitivity(Visitor& v, const control::Margins& margins) {
   v.number("sensitivity_peak", margins.sensitivity.magnitude, unit::ratio,
-           "Largest |S|, S = 1/(1 + L).", {.least = 0.0});
+           "Largest |S|, S = 1/(1 + L).", {.minimum = 0.0});
   v.number("sensitivity_peak_frequency", margins.sensitivity.frequency, unit::hertz_of_radians,
-           "Where |S| is largest.", {.least = 0.0});
+           "Where |S| is largest.", {.minimum = 0.0});
 }
 
 void describe_status(Visitor& v, design::RunStatus status, std::string_view meaning) {
   v.word("status", to_string(status), {"complete", "interrupted", "lost", "failed"}, meaning);
 }
 
-void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail detail) {
+void describe(Visitor& v, const design::LimitCycleResult& result, LimitCycleDetail detail) {
   const bool counted = detail != LimitCycleDetail::score;
   const bool full = detail == LimitCycleDetail::full;
   v.number("rate", result.rate, unit::millidegree_per_second, "Steady, at the sky.",
@@ -84,18 +84,18 @@ void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail 
   if (counted) {
     v.count("starts", result.starts,
             "Runs, each moved by another step at its start; the figures are of the worst.",
-            {.least = 1});
-    v.count("starts_hunting", result.starts_hunting, "Runs with a limit cycle.");
+            {.minimum = 1});
+    v.count("starts_with_limit_cycle", result.starts_with_limit_cycle, "Runs with a limit cycle.");
     v.number("encoder_amplitude", result.encoder_amplitude, unit::millidegree,
-             "Half of peak to peak.", {.least = 0.0});
+             "Half of peak to peak.", {.minimum = 0.0});
   }
-  v.number("beam_amplitude", result.beam_amplitude, unit::millidegree, "Half of peak to peak.",
-           {.least = 0.0});
+  v.number("boresight_amplitude", result.boresight_amplitude, unit::millidegree,
+           "Half of peak to peak.", {.minimum = 0.0});
   v.number("frequency", result.frequency, unit::hertz, "Null with less than two periods seen.",
-           {.least = 0.0});
+           {.minimum = 0.0});
   if (full) {
     v.number("persistence", result.persistence, unit::ratio, "Amplitude over that before.",
-             {.least = 0.0});
+             {.minimum = 0.0});
   }
 }
 

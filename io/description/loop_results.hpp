@@ -14,7 +14,7 @@ namespace boresight::io {
 void describe_break(Visitor& v, std::string_view key, control::LoopBreak loop_break);
 
 /// "loop_breaks": the constraints on a loop opened at each of control::loop_breaks.
-void describe_breaks(Visitor& v, const design::HardGoals& goals);
+void describe_breaks(Visitor& v, const design::Constraints& goals);
 
 /// The smallest margins of one loop, opened at one place: gain, phase, delay.
 void describe(Visitor& v, const control::Margins& margins);
@@ -28,7 +28,7 @@ enum class LimitCycleDetail {
   full,   // why a run did not complete, and whether the amplitude lasts
 };
 /// The loop's free motion at a steady rate.
-void describe(Visitor& v, const design::HuntingResult& result, LimitCycleDetail detail);
+void describe(Visitor& v, const design::LimitCycleResult& result, LimitCycleDetail detail);
 
 /// "status": how a run ended.
 void describe_status(Visitor& v, design::RunStatus status,

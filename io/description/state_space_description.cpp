@@ -22,7 +22,7 @@ void describe_matrix(Visitor& v, std::string_view key, const Eigen::MatrixXd& ma
 
 void describe(Visitor& v, const plant::StateSpace& system) {
   v.defined_as("state_space",
-               "dx/dt = A x + B u, y = C x + D u; with a sample time x[k+1] in the place of dx/dt. "
+               "dx/dt = A x + B u, y = C x + D u; with a sample time x[k+1] instead of dx/dt. "
                "In the form that boresight benchmark --controller reads "
                "(docs/benchmark-protocol.md).");
   v.texts("inputs", system.inputs, names);
@@ -33,7 +33,7 @@ void describe(Visitor& v, const plant::StateSpace& system) {
   v.texts("state_units", signal_units(system.states), units);
   v.constant("angles", "motor", "The shaft that the angles are of.");
   v.number("sample_time", system.sample_time, key_units::none, "In s; 0: continuous.",
-           {.least = 0.0, .finite = true});
+           {.minimum = 0.0, .finite = true});
   describe_matrix(v, "A", system.a);
   describe_matrix(v, "B", system.b);
   describe_matrix(v, "C", system.c);

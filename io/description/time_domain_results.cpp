@@ -6,27 +6,28 @@ namespace {
 
 namespace unit = key_units;
 
-constexpr NumberForm positive{.least = 0.0};
-constexpr NumberForm known{.least = 0.0, .finite = true};
+constexpr NumberForm positive{.minimum = 0.0};
+constexpr NumberForm known{.minimum = 0.0, .finite = true};
 constexpr std::string_view no_figures = "Why there are no figures; null if the run is complete.";
 
 void describe_influence(Visitor& v, const design::InfluenceResult& one) {
   v.word("influence", to_string(one.influence),
          {"friction", "limits", "quantisation", "orifice", "gear"}, "What is switched off.");
   describe_status(v, one.status, "How the run without it ended.");
-  v.number("beam_rms_without", one.beam_rms_without, unit::millidegree, "Of the run without it.",
-           positive);
+  v.number("boresight_rms_without", one.boresight_rms_without, unit::millidegree,
+           "Of the run without it.", positive);
   v.number("difference", one.difference, unit::millidegree,
            "Rms of the whole loop less that without the influence.");
 }
 
-void describe_command_limit(Visitor& v, double share) {
-  v.number("at_command_limit", share, unit::ratio,
-           "Share of the samples at which the valve command is at its limit.", known);
+void describe_command_limit(Visitor& v, double fraction) {
+  v.number("at_command_limit", fraction, unit::ratio,
+           "Fraction of the samples at which the valve command is at its limit.", known);
 }
 
 void describe_rms(Visitor& v, const design::WindResult& wind) {
-  v.number("beam_rms", wind.beam_rms, unit::millidegree, "About the mean, simulated.", positive);
+  v.number("boresight_rms", wind.boresight_rms, unit::millidegree, "About the mean, simulated.",
+           positive);
 }
 
 void describe_prediction(Visitor& v, const design::WindResult& wind) {
@@ -44,14 +45,14 @@ void describe_wind(Visitor& v, const design::WindResult& wind,
   v.number("encoder_rms", wind.encoder_rms, unit::millidegree, "The same of the encoder.",
            positive);
   describe_prediction(v, wind);
-  v.number("chance", wind.chance, unit::millidegree,
+  v.number("realisation_error", wind.realisation_error, unit::millidegree,
            "Rms of the linear loop on this record less the prediction.");
   v.number("sampling", wind.sampling, unit::millidegree,
            "Rms of the sampled linear loop less that of the continuous one.");
   v.list("influences", wind.influences,
          "What the linear design leaves out, each switched off alone.",
          [&](const design::InfluenceResult& one) { describe_influence(v, one); });
-  v.number("joint", wind.joint, unit::millidegree,
+  v.number("interaction", wind.interaction, unit::millidegree,
            "What the influences do only together, and the rest of the nonlinear antenna.");
   describe_command_limit(v, wind.at_command_limit);
 }
@@ -62,13 +63,14 @@ void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
   v.text_or_null("message", both.message, no_figures);
   v.flag("agree", design::agree(both), "Both runs are complete, and ratio is at most limit.");
   v.number("duration", both.duration, unit::second, "Compared, from the end of settling.", known);
-  v.number("beam_rms", both.collocation_rms, unit::millidegree,
+  v.number("boresight_rms", both.collocation_rms, unit::millidegree,
            "About the mean, by exponential collocation, as the run in wind.", positive);
-  v.number("cvodes_beam_rms", both.cvodes_rms, unit::millidegree, "About the mean, by CVODES.",
+  v.number("cvodes_boresight_rms", both.cvodes_rms, unit::millidegree, "About the mean, by CVODES.",
            positive);
   v.number("difference_rms", both.difference_rms, unit::millidegree,
-           "Of the difference between the beams, sample by sample.", positive);
-  v.number("ratio", both.ratio(), unit::ratio, "difference_rms over cvodes_beam_rms.", positive);
+           "Of the difference between the boresight errors, sample by sample.", positive);
+  v.number("ratio", both.ratio(), unit::ratio, "difference_rms over cvodes_boresight_rms.",
+           positive);
   v.number("limit", design::integrator_agreement_limit, unit::ratio, "Of ratio.", known);
   v.number("cvodes_relative_tolerance", both.cvodes_relative_tolerance, unit::ratio,
            "Of each step of CVODES.", known);
@@ -78,9 +80,10 @@ void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
   v.count("cvodes_steps", both.cvodes_steps, "Of CVODES, settling included.");
 }
 
-void describe_hunting(Visitor& v, const std::vector<design::HuntingResult>& hunting) {
-  v.list("hunting", hunting, "Without wind and noise: at rest, then at the tracking rate.",
-         [&](const design::HuntingResult& one) {
+void describe_limit_cycles(Visitor& v, const std::vector<design::LimitCycleResult>& limit_cycles) {
+  v.list("limit_cycles", limit_cycles,
+         "Without wind and noise: at rest, then at the tracking rate.",
+         [&](const design::LimitCycleResult& one) {
            v.defined_as("limit_cycle", "What the loop does by itself at one steady rate.");
            describe(v, one, LimitCycleDetail::full);
          });
@@ -94,7 +97,7 @@ void describe_reversal(Visitor& v, const std::optional<design::ReversalResult>& 
                      v.text_or_null("message", one.message, no_figures);
                      v.number("encoder_error", one.encoder_error, unit::millidegree,
                               "Largest after a reversal.", positive);
-                     v.number("beam_error", one.beam_error, unit::millidegree,
+                     v.number("boresight_error", one.boresight_error, unit::millidegree,
                               "Largest after a reversal, about the mean.", positive);
                      v.number("encoder_error_without_friction", one.encoder_error_without_friction,
                               unit::millidegree, "What a loop without friction has too.", positive);
@@ -117,7 +120,7 @@ void describe_slew(Visitor& v, const std::optional<design::SlewResult>& slew,
                  "That the command keeps.", positive);
         v.number("acceleration_limit", one.limits.acceleration,
                  {.suffix = "deg_per_s2", .divisor = degree}, "That the command keeps.");
-        v.flag("limits_within_reach", one.within_reach,
+        v.flag("limits_achievable", one.achievable_limits,
                "The drive can do the limits asked for; otherwise the limits are what it can do.");
         v.number("command_time", one.command_time, unit::second, "Of the move commanded.",
                  positive);
@@ -137,8 +140,9 @@ void describe_slew(Visitor& v, const std::optional<design::SlewResult>& slew,
 void describe(Visitor& v, const design::TimeDomainStudy& study) {
   const design::NonlinearVerification& result = study.result;
   const double settled_error = study.options.settled_error;
-  v.defined_as("time_domain", "The best tuned law in the time domain, on the nonlinear antenna.");
-  v.text("law", study.law, "Its name.");
+  v.defined_as("time_domain",
+               "The best tuned controller in the time domain, on the nonlinear antenna.");
+  v.text("controller", study.controller, "Its name.");
   v.number("wind_speed", study.wind_speed, unit::metre_per_second, "Mean.", known);
   v.number("sample_time", study.sample_time, unit::second, "Of the controller.", known);
   v.number("encoder_resolution", study.encoder_resolution, unit::millidegree,
@@ -154,32 +158,32 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
       "The run in wind by a second integrator, CVODES, on the same equations; null if it was not "
       "repeated.",
       [&](const design::IntegratorAgreement& both) { describe_integrators(v, both); });
-  describe_hunting(v, result.hunting);
+  describe_limit_cycles(v, result.limit_cycles);
   describe_reversal(v, result.reversal);
   describe_slew(v, result.slew, settled_error);
   v.list("candidates", study.candidates,
          "The controllers that this one was chosen from by the least simulated rms, limit cycle "
          "included, itself among them; empty where there was no choice.",
          [&](const design::TimeDomainStudy::Candidate& one) {
-           v.text("law", one.law, "Its name.");
+           v.text("controller", one.controller, "Its name.");
            describe_status(v, one.result.wind.status, "How its run in wind ended.");
            describe_rms(v, one.result.wind);
            v.object("expected_rms", one.rms,
                     "Over several records of wind; null if there was but one.");
            describe_prediction(v, one.result.wind);
-           describe_hunting(v, one.result.hunting);
+           describe_limit_cycles(v, one.result.limit_cycles);
            describe_reversal(v, one.result.reversal);
            describe_slew(v, one.result.slew, settled_error);
          });
 }
 
 void describe(Visitor& v, const design::NonlinearVerification& run) {
-  v.defined_as("compared_run", "A law on the nonlinear antenna, compared with others.");
+  v.defined_as("compared_run", "A controller on the nonlinear antenna, compared with others.");
   describe_status(v, run.wind.status, "How the run in wind ended.");
   v.text_or_null("message", run.wind.message, no_figures);
   describe_rms(v, run.wind);
   describe_prediction(v, run.wind);
-  describe_hunting(v, run.hunting);
+  describe_limit_cycles(v, run.limit_cycles);
   describe_reversal(v, run.reversal);
 }
 

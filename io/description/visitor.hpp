@@ -30,24 +30,24 @@ struct TableColumn {
 
 /// What a number can be in the unit of its key, and how it is shown.
 struct NumberForm {
-  double least = -std::numeric_limits<double>::infinity();
+  double minimum = -std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();  // excluded itself
-  double most = std::numeric_limits<double>::infinity();
+  double maximum = std::numeric_limits<double>::infinity();
   /// Finite in every report. Otherwise null stands for infinity and for what is not a number.
   bool finite = false;
   TableColumn column = {};
 };
 
 struct CountForm {
-  std::uint64_t least = 0;
-  std::optional<std::uint64_t> most = std::nullopt;
+  std::uint64_t minimum = 0;
+  std::optional<std::uint64_t> maximum = std::nullopt;
   bool nullable = false;
   bool constant = false;  // the only count that it is
 };
 
 struct ListSize {
-  std::size_t least = 0;
-  std::optional<std::size_t> most = std::nullopt;
+  std::size_t minimum = 0;
+  std::optional<std::size_t> maximum = std::nullopt;
 };
 
 /// What a text can be, where that is known.

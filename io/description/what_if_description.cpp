@@ -40,7 +40,7 @@ void describe_start(Visitor& v, const design::WhatIfTable& table) {
 void describe(Visitor& v, const design::WhatIfTable& table) {
   v.texts("structures", table.structures, "As the series.");
   v.numbers("flywheel_disks", rounded(table.disks, 6), unit::ratio,
-            "On each motor, rising; each law is the one tuned there.", known);
+            "On each motor, rising; each controller is the one tuned there.", known);
   v.numbers("leakage_rates", rounded(table.leakage_rates, 6), unit::per_second, "Rising.", known);
   v.numbers("friction_slopes", rounded(table.friction_slopes, 6), slope_unit,
             "At the motor shaft, rising.", known);
@@ -60,15 +60,15 @@ void describe(Visitor& v, const design::WhatIfTable& table) {
     v.text("band", budget.band, "Of which band.");
     v.number("rms", rounded(budget.rms / millidegree, 5), millidegrees, "One axis.", known);
   });
-  v.numbers("beam_rms", rounded(table.beam_rms, 5, millidegree), millidegrees,
+  v.numbers("boresight_rms", rounded(table.boresight_rms, 5, millidegree), millidegrees,
             "By structure, disks, leakage, friction and wind speed, the last fastest; null: "
             "unstable.");
   std::vector<std::uint64_t> states;
   for (const auto state : table.states) states.push_back(static_cast<std::uint64_t>(state));
   v.counts("states_1", states,
-           "In the same order. 0: unstable, 1: stable, a hard goal is missed, 2: every hard goal "
+           "In the same order. 0: unstable, 1: stable, a constraint is missed, 2: every constraint "
            "holds.",
-           {.most = 2});
+           {.maximum = 2});
 }
 
 }  // namespace boresight::io

@@ -11,7 +11,7 @@ void describe(Visitor& v, const plant::WindMast& mast) {
   v.number("height", mast.height, metre, "Above ground.", positive);
   v.number("dish_height", mast.dish_height, metre, "Of the dish's centre, above ground.", positive);
   v.number("shear_exponent", mast.shear_exponent, key_units::ratio,
-           "Of the power law between the two.", {.least = 0.0, .finite = true});
+           "Of the power law between the two.", {.minimum = 0.0, .finite = true});
   v.number("speed_ratio", mast.speed_ratio, key_units::ratio,
            "Mean speed at the dish's centre over that at the mast.", positive);
 }

@@ -24,7 +24,7 @@ namespace boresight::io {
 namespace {
 
 constexpr std::uintmax_t largest_file = 64U << 20U;
-constexpr Eigen::Index most_states = 300;
+constexpr Eigen::Index max_states = 300;
 
 // What a name of a signal stands for; a sign of 0 is a reference that rests.
 struct Signal {
@@ -98,9 +98,9 @@ void check_sizes(const ControllerText& text, const std::string& file) {
           fmt::format("{}: {}: expected finite elements, found NaN or infinity", file, name));
     }
   };
-  if (n > most_states) {
+  if (n > max_states) {
     throw InvalidInput(
-        fmt::format("{}: A: expected at most {} states, found {}", file, most_states, n));
+        fmt::format("{}: A: expected at most {} states, found {}", file, max_states, n));
   }
   require("A", text.a, n, n);
   require("D", text.d, outputs, inputs);
@@ -229,24 +229,25 @@ void write_controller(const std::string& path, const plant::StateSpace& controll
 
 namespace {
 
-control::ControlLaw law_from(TableReader& table, const Case& antenna) {
-  control::ControlLaw law;
+control::Controller controller_from(TableReader& table, const Case& antenna) {
+  control::Controller controller;
   const std::string name = table.text("structure");
   try {
-    law.structure = loop_structure(antenna, name);
+    controller.structure = loop_structure(antenna, name);
   } catch (const InvalidInput& error) {
     table.refuse("structure", error.what());
   }
-  for (const auto& block : law.structure.blocks()) {
+  for (const auto& block : controller.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
-      law.gains.push_back(table
-                              .quantity(block.gains[i].symbol, gain_kind(block.path, block.kind, i),
-                                        Range::positive(1e11))
-                              .value);
+      controller.gains.push_back(table
+                                     .quantity(block.gains[i].symbol,
+                                               gain_kind(block.path, block.kind, i),
+                                               Range::positive(1e11))
+                                     .value);
     }
   }
   table.finish();
-  return law;
+  return controller;
 }
 
 }  // namespace
@@ -257,18 +258,18 @@ GainsFile read_gains_file(const std::string& path, const Case& antenna,
   const auto first = text.find_first_not_of(" \t\r\n");
   if (first != std::string::npos && text[first] == '{') {
     auto reported = written_controller_of_report(antenna, text, path, structure);
-    return {std::move(reported.law),
+    return {std::move(reported.controller),
             fmt::format("{}, {}, of {}", reported.structure, reported.tuned_for, path)};
   }
   TableReader file = TableReader::parse(text, path);
   GainsFile result;
   if (auto table = file.optional_table("gains")) {
-    result.law = law_from(*table, antenna);
+    result.controller = controller_from(*table, antenna);
     file.finish();
   } else {
-    result.law = law_from(file, antenna);
+    result.controller = controller_from(file, antenna);
   }
-  result.description = fmt::format("{}, gains of {}", result.law.structure.name(), path);
+  result.description = fmt::format("{}, gains of {}", result.controller.structure.name(), path);
   return result;
 }
 

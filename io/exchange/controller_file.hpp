@@ -7,7 +7,7 @@
 
 #include <Eigen/Core>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/io/case/case_declaration.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
@@ -69,7 +69,7 @@ std::string controller_json(const plant::StateSpace& controller);
 /// report of `boresight tune`, of which written_controller_of_report.
 /// @throws InvalidInput naming the file.
 struct GainsFile {
-  control::ControlLaw law;
+  control::Controller controller;
   std::string description;  // "PI, robust, of report.json"
 };
 GainsFile read_gains_file(const std::string& path, const Case& antenna,

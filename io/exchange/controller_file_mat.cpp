@@ -14,8 +14,8 @@ namespace boresight::io {
 namespace {
 
 constexpr int deepest = 4;
-constexpr std::uint64_t most_numbers = 1000000;
-constexpr std::uint64_t most_letters = 10000;
+constexpr std::uint64_t max_numbers = 1000000;
+constexpr std::uint64_t max_letters = 10000;
 
 std::string trimmed(const std::string& text) {
   const auto from = text.find_first_not_of(" \t");
@@ -85,7 +85,7 @@ class ControllerCollector {
  private:
   void take_matrix(MatArray& array, const char* name, Eigen::MatrixXd& matrix, bool& read) const {
     if (array.kind != MatArray::Class::number || array.complex || array.dimensions.size() != 2 ||
-        array.elements > most_numbers) {
+        array.elements > max_numbers) {
       throw InvalidInput(
           fmt::format("{}: {}: expected a full real matrix, found something else", file_, name));
     }
@@ -107,9 +107,9 @@ class ControllerCollector {
   std::vector<std::string> names_of(MatArray& array, const char* separators) const {
     std::vector<std::string> names;
     if (array.elements == 0) return names;
-    if (array.elements > most_letters) {
+    if (array.elements > max_letters) {
       throw InvalidInput(fmt::format("{}: expected names of at most {} letters, found {}", file_,
-                                     most_letters, array.elements));
+                                     max_letters, array.elements));
     }
     if (array.kind == MatArray::Class::text) {
       const std::vector<double> codes = mat_characters(array);

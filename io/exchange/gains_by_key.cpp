@@ -11,11 +11,11 @@
 
 namespace boresight::io {
 
-control::ControlLaw law_by_key(const Case& antenna, const std::string& structure,
-                               const std::vector<std::string>& gains) {
-  control::ControlLaw law{loop_structure(antenna, structure), {}};
+control::Controller controller_by_key(const Case& antenna, const std::string& structure,
+                                      const std::vector<std::string>& gains) {
+  control::Controller controller{loop_structure(antenna, structure), {}};
   std::vector<std::string> known;
-  for (const auto& block : law.structure.blocks()) {
+  for (const auto& block : controller.structure.blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
       const std::string& symbol = block.gains[i].symbol;
       known.push_back(symbol);
@@ -26,7 +26,7 @@ control::ControlLaw law_by_key(const Case& antenna, const std::string& structure
                                        symbol, block.gains[i].name, structure));
       }
       try {
-        law.gains.push_back(
+        controller.gains.push_back(
             parse_quantity(text->substr(symbol.size() + 1), gain_kind(block.path, block.kind, i))
                 .value);
       } catch (const InvalidInput& error) {
@@ -41,8 +41,8 @@ control::ControlLaw law_by_key(const Case& antenna, const std::string& structure
                                      in_quotes(text), fmt::join(known, ", ")));
     }
   }
-  control::validate(law);
-  return law;
+  control::validate(controller);
+  return controller;
 }
 
 }  // namespace boresight::io

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
@@ -12,7 +12,7 @@ namespace boresight::io {
 /// quantity, "wi=0.3 rad/s".
 /// @throws InvalidInput for a gain that is missing, a key that the structure has not, a value of
 /// another kind or out of range, and as loop_structure.
-control::ControlLaw law_by_key(const Case& antenna, const std::string& structure,
-                               const std::vector<std::string>& gains);
+control::Controller controller_by_key(const Case& antenna, const std::string& structure,
+                                      const std::vector<std::string>& gains);
 
 }  // namespace boresight::io

@@ -53,17 +53,18 @@ std::vector<std::size_t> whole_blocks(const MonteCarloRun& run) {
 std::string digest_of(std::string_view version, std::string_view input,
                       const design::MonteCarlo& study,
                       const design::PlantDistribution& distribution, std::uint64_t seed) {
-  std::string all = fmt::format("{}\n{}\n{} {} {} {}\n{}", version, input, seed, study.plants,
-                                study.retune, study.confirm_every, study.law.structure.name());
+  std::string all =
+      fmt::format("{}\n{}\n{} {} {} {}\n{}", version, input, seed, study.plants, study.retune,
+                  study.confirm_every, study.controller.structure.name());
   const auto add = [&](double number) { fmt::format_to(std::back_inserter(all), " {}", number); };
-  for (const double gain : study.law.gains) add(gain);
+  for (const double gain : study.controller.gains) add(gain);
   for (std::uint64_t index = 0; index < 8; ++index) {
     for (const double value : distribution.draw(seed, index).values) add(value);
   }
-  const auto outcome = design::MonteCarloJudge(study).judge(0);
-  add(outcome.beam_rms);
-  add(outcome.valve_effort);
-  add(outcome.worst_goal_ratio);
+  const auto outcome = design::MonteCarloEvaluator(study).evaluate(0);
+  add(outcome.boresight_rms);
+  add(outcome.control_effort);
+  add(outcome.worst_constraint);
   for (const double peak : outcome.sensitivity_peaks) add(peak);
   return sha256_hex(all);
 }
@@ -126,10 +127,10 @@ std::size_t read_checkpoint(const std::string& path, std::string_view digest, Mo
   }
   if (all.substr(first_line.size(), digest_size) != digest ||
       number_at(all, first_line.size() + digest_size) != run.study().plants) {
-    throw InvalidInput(
-        fmt::format("{}: is the checkpoint of another run: case, records, options, law or program "
-                    "differ; remove it to begin anew, or name another with --checkpoint",
-                    path));
+    throw InvalidInput(fmt::format(
+        "{}: is the checkpoint of another run: case, records, options, controller or program "
+        "differ; remove it to begin anew, or name another with --checkpoint",
+        path));
   }
   return put_blocks(all.substr(header_size), run);
 }

@@ -14,7 +14,7 @@ namespace boresight::io {
 /// Digest that identifies a run, 64 hexadecimal digits. It covers the program's version, the text
 /// of its case, seed, options and controller. It also covers the first plants, which depend on the
 /// case's other files, and one outcome, which depends on this program.
-/// @throws as design::MonteCarloJudge.
+/// @throws as design::MonteCarloEvaluator.
 std::string digest_of(std::string_view version, std::string_view input,
                       const design::MonteCarlo& study,
                       const design::PlantDistribution& distribution, std::uint64_t seed);

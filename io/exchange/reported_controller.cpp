@@ -70,19 +70,19 @@ const Json* recommended_row(const Json& rows, const std::string& structure,
 }
 
 [[noreturn]] void refuse(const std::string& path, const std::string& found) {
-  throw InvalidInput(
-      fmt::format("{}: expected a report of `boresight tune` or `redesign` in JSON with a law, "
-                  "found {}",
-                  path, found));
+  throw InvalidInput(fmt::format(
+      "{}: expected a report of `boresight tune` or `redesign` in JSON with a controller, "
+      "found {}",
+      path, found));
 }
 
 // The gains of a "design": numbers whose keys are the gains' names with blanks replaced and the
 // unit behind.
-control::ControlLaw read_law(const Case& antenna, const std::string& path, const Json& design,
-                             const std::string& structure) {
-  control::ControlLaw law{structure_named(antenna, structure), {}};
+control::Controller controller_from_design(const Case& antenna, const std::string& path,
+                                           const Json& design, const std::string& structure) {
+  control::Controller controller{structure_named(antenna, structure), {}};
   const Json gains = design.value("gains", Json::object());
-  for (const auto& description : law.structure.gains()) {
+  for (const auto& description : controller.structure.gains()) {
     std::string key = description.name;
     std::ranges::replace(key, ' ', '_');
     const auto found = std::ranges::find_if(
@@ -90,17 +90,17 @@ control::ControlLaw read_law(const Case& antenna, const std::string& path, const
     if (found == gains.items().end() || !found.value().is_number()) {
       refuse(path, fmt::format("no gain '{}' of {}", description.name, structure));
     }
-    law.gains.push_back(found.value().template get<double>());
+    controller.gains.push_back(found.value().template get<double>());
   }
-  control::validate(law);
-  return law;
+  control::validate(controller);
+  return controller;
 }
 
 }  // namespace
 
 control::LoopStructure structure_named(const Case& antenna, const std::string& name) {
-  for (const auto& [short_name, law] : present_controllers(antenna)) {
-    if (law.structure.name() == name) return law.structure;
+  for (const auto& [short_name, controller] : present_controllers(antenna)) {
+    if (controller.structure.name() == name) return controller.structure;
   }
   for (const auto& usual : control::usual_structures()) {
     auto structure = loop_structure(antenna, usual);
@@ -126,7 +126,7 @@ ReportedController controller_of_report(const Case& antenna, const std::string& 
         refuse(path, structure.empty() ? "none" : fmt::format("none of {}", structure));
       }
       const auto name = best->at("structure").get<std::string>();
-      return {read_law(antenna, path, best->at("design"), name), name,
+      return {controller_from_design(antenna, path, best->at("design"), name), name,
               best->at("tuned_for").get<std::string>()};
     }
     if (report.contains("tuning")) {
@@ -136,7 +136,8 @@ ReportedController controller_of_report(const Case& antenna, const std::string& 
           loop_structure(antenna, structure) != structure_named(antenna, name)) {
         refuse(path, fmt::format("only one of {}", name));
       }
-      return {read_law(antenna, path, design, name), structure.empty() ? name : structure, ""};
+      return {controller_from_design(antenna, path, design, name),
+              structure.empty() ? name : structure, ""};
     }
     refuse(path, "neither 'tuned' nor 'tuning'");
   } catch (const nlohmann::json::exception& error) {
@@ -154,28 +155,28 @@ ReportedController written_controller_of_report(const Case& antenna, const std::
                                       design::Fitness::misses_member);
     if (row == nullptr) {
       throw InvalidInput(fmt::format(
-          "{}: expected a tuned law that meets its goals{}, found none", path,
+          "{}: expected a tuned controller that meets its goals{}, found none", path,
           structure.empty() ? "" : fmt::format(" of structure {}", in_quotes(structure))));
     }
     ReportedController found;
     const auto name = row->at("structure").get<std::string>();
-    found.law.structure = loop_structure(antenna, name);
+    found.controller.structure = loop_structure(antenna, name);
     std::map<std::string, std::string> written;
     for (const auto& gain : row->at("gains_as_written")) {
       written[gain.at("symbol").get<std::string>()] = gain.at("value").get<std::string>();
     }
-    for (const auto& block : found.law.structure.blocks()) {
+    for (const auto& block : found.controller.structure.blocks()) {
       for (std::size_t i = 0; i < block.gains.size(); ++i) {
         const auto gain = written.find(block.gains[i].symbol);
         if (gain == written.end()) {
           throw InvalidInput(fmt::format("{}: expected a gain {} of {}, found none", path,
                                          block.gains[i].symbol, in_quotes(name)));
         }
-        found.law.gains.push_back(
+        found.controller.gains.push_back(
             parse_quantity(gain->second, gain_kind(block.path, block.kind, i)).value);
       }
     }
-    control::validate(found.law);
+    control::validate(found.controller);
     found.structure = name;
     found.tuned_for = row->at("tuned_for").get<std::string>();
     return found;

@@ -2,14 +2,14 @@
 
 #include <string>
 
-#include <boresight/control/controllers/control_law.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/io/case/case_declaration.hpp>
 
 namespace boresight::io {
 
 /// A controller that a report in JSON holds.
 struct ReportedController {
-  control::ControlLaw law;
+  control::Controller controller;
   std::string structure;  // as the report names it
   std::string tuned_for;  // "nominal" or "robust"; empty: the report is of one controller
 };

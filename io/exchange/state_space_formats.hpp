@@ -12,8 +12,8 @@
 namespace boresight::io {
 
 /// The SI unit of a signal or state of an antenna's models by its name: "rad/s" of "motor_rate",
-/// "N.m" of "motor_torque", "rad" of `beam`. Empty for an unknown name, such as a controller's own
-/// states.
+/// "N.m" of "motor_torque", "rad" of `boresight`. Empty for an unknown name, such as a controller's
+/// own states.
 std::string signal_unit(std::string_view name);
 std::vector<std::string> signal_units(const std::vector<std::string>& names);
 

@@ -259,9 +259,9 @@ class ProposalReader {
     const bool lines = proposal_.find("oil.line_lengths") != nullptr;
     table->read("line_share", "oil.line_share", Kind::number, Range::between(0.0, 1.0),
                 proposal_.changes);
-    if (const auto* share = proposal_.find("oil.line_share"); share != nullptr) {
-      if (share->multiplies) {
-        table->reader().refuse("line_share", "expected a share within 0 to 1, found a factor");
+    if (const auto* fraction = proposal_.find("oil.line_share"); fraction != nullptr) {
+      if (fraction->multiplies) {
+        table->reader().refuse("line_share", "expected a fraction within 0 to 1, found a factor");
       }
       if (!lines) {
         table->reader().refuse("line_share",

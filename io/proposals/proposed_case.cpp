@@ -20,7 +20,7 @@
 #include <boresight/io/case/plant_numbers.hpp>
 #include <boresight/io/case/structure_numbers.hpp>
 #include <boresight/io/proposals/changeable_numbers.hpp>
-#include <boresight/io/proposals/following_changes.hpp>
+#include <boresight/io/proposals/dependent_changes.hpp>
 #include <boresight/io/proposals/proposed_case.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
@@ -55,8 +55,8 @@ class Application {
     check_friction();
     for (const auto& change : proposal_.changes) add_row(change);
     check_any_change();
-    result_.consequences = consequences_of(before_, after_);
-    std::erase_if(result_.consequences, [&](const DerivedChange& one) {
+    result_.derived_quantities = derived_quantities_of(before_, after_);
+    std::erase_if(result_.derived_quantities, [&](const DerivedChange& one) {
       const auto* named = proposal_.find(one.key);
       // Nothing else moves a locked-rotor frequency that the proposal names.
       return named != nullptr &&
@@ -105,24 +105,25 @@ class Application {
       line.slosh_frequency.value /= factor;
     }
     for (auto& line : after_.campaign->lines) line.length.value *= factor;
-    const auto* share = proposal_.find("oil.line_share");
+    const auto* fraction = proposal_.find("oil.line_share");
     const bool stated =
         proposal_.find("oil.volume_1") != nullptr || proposal_.find("oil.volume_2") != nullptr;
-    if (share != nullptr && stated) {
-      refuse_change(*share,
+    if (fraction != nullptr && stated) {
+      refuse_change(*fraction,
                     "expected either line_share, from which the volumes follow, or volume_1 and "
                     "volume_2, found both");
     }
-    if (share != nullptr) {
-      const double kept = 1.0 - share->number.value + share->number.value * factor;
+    if (fraction != nullptr) {
+      const double kept = 1.0 - fraction->number.value + fraction->number.value * factor;
       if (!(kept > 0.0)) {
-        refuse_change(*share, "expected volumes to be left when the lines are gone, found none");
+        refuse_change(*fraction, "expected volumes to be left when the lines are gone, found none");
       }
       for (Quantity* volume : {&after_.oil->volume_1, &after_.oil->volume_2}) volume->value *= kept;
     } else if (!stated) {
-      refuse_change(*lengths,
-                    "expected line_share (the share of each volume that is lines) or the volumes "
-                    "beside it, found neither: volumes must follow the lines");
+      refuse_change(
+          *lengths,
+          "expected line_share (the fraction of each volume that is lines) or the volumes "
+          "beside it, found neither: volumes must follow the lines");
     } else {
       for (const char* key : {"oil.volume_1", "oil.volume_2"}) {
         if (proposal_.find(key) == nullptr) {
@@ -136,14 +137,14 @@ class Application {
     const auto* lengths = proposal_.find("oil.line_lengths");
     if (lengths == nullptr) return;
     const double factor = lengths->number.value;
-    const double least = std::min(1.0, factor) * before, most = std::max(1.0, factor) * before;
+    const double minimum = std::min(1.0, factor) * before, maximum = std::max(1.0, factor) * before;
     constexpr double rounding = 1e-3;
-    if (after < least * (1.0 - rounding) || after > most * (1.0 + rounding)) {
+    if (after < minimum * (1.0 - rounding) || after > maximum * (1.0 + rounding)) {
       refuse_change(
           change,
           fmt::format("expected {:.4g} to {:.4g} m3, all that lines of {:g} times the length can "
                       "make of {:.4g} m3, found {:.4g} m3: oil.line_lengths contradicts it",
-                      least, most, factor, before, after));
+                      minimum, maximum, factor, before, after));
     }
   }
 

@@ -12,7 +12,7 @@ namespace boresight::io {
 struct ProposedCase {
   Case antenna;
   std::vector<ChangeRow> changes;
-  std::vector<DerivedChange> consequences;  // of quantities that the proposal does not name
+  std::vector<DerivedChange> derived_quantities;  // of quantities that the proposal does not name
 };
 
 /// Applies a proposal to a case, with all changes that depend on it:
@@ -42,6 +42,6 @@ struct ProposedCase {
 ProposedCase apply_proposal(const Case& antenna, const Proposal& proposal);
 
 /// Differences between a case and a case derived from it, quantity by quantity.
-std::vector<DerivedChange> consequences_of(const Case& before, const Case& after);
+std::vector<DerivedChange> derived_quantities_of(const Case& before, const Case& after);
 
 }  // namespace boresight::io

@@ -112,8 +112,8 @@ void MatVariables::keep(const std::string& name, std::string head, std::string b
   if (std::ranges::find(variables_, name, &Variable::name) != variables_.end()) {
     throw InvalidInput(fmt::format("MAT file: expected each name once, found '{}' again", name));
   }
-  constexpr auto most = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
-  if (body.size() > most - 1024) {
+  constexpr auto maximum = static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max());
+  if (body.size() > maximum - 1024) {
     throw InvalidInput(fmt::format("MAT file: expected arrays below 2^31 bytes, found {} in '{}'",
                                    body.size(), name));
   }

@@ -231,10 +231,10 @@ bool is_named(const RecordColumn& column, const std::string& name) {
 }
 
 std::string columns_of(const RecordTable& table) {
-  constexpr std::size_t most = 20;
+  constexpr std::size_t maximum = 20;
   std::vector<std::string_view> names;
   for (const RecordColumn& column : table.columns) names.push_back(column.name);
-  names.resize(std::min(most, names.size()));
+  names.resize(std::min(maximum, names.size()));
   const std::size_t more = table.columns.size() - names.size();
   return quoted_list(names) + (more > 0 ? fmt::format(" and {} more", more) : "");
 }

@@ -16,7 +16,7 @@
 namespace boresight::io {
 namespace {
 
-constexpr std::size_t most_columns = 4096;
+constexpr std::size_t max_columns = 4096;
 // A header stands near the beginning; a file of prose is not read to its end for one.
 constexpr std::size_t furthest_row = std::size_t{1} << 20U;
 
@@ -294,11 +294,11 @@ RecordHeader read_record_header(std::string_view content, const std::string& nam
                     fmt::format("expected a number, found {}", in_quotes(cell.text)));
     }
   }
-  if (names.size() < 2 || names.size() > most_columns) {
+  if (names.size() < 2 || names.size() > max_columns) {
     refuse_record(content, chosen->begin, name,
                   fmt::format("expected a header of 2 to {} names separated as the numbers are, "
                               "found {}",
-                              most_columns, names.size()));
+                              max_columns, names.size()));
   }
   for (std::size_t i = 0; i < names.size(); ++i) {
     header.columns.push_back(named_column(names[i].text));

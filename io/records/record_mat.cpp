@@ -13,7 +13,7 @@
 namespace boresight::io {
 namespace {
 
-constexpr std::size_t most_columns = 4096;
+constexpr std::size_t max_columns = 4096;
 constexpr int deepest = 8;
 
 class Collector {
@@ -54,9 +54,9 @@ class Collector {
 
  private:
   void add(std::string name, std::vector<double> values) {
-    if (columns_.size() == most_columns) {
+    if (columns_.size() == max_columns) {
       throw InvalidInput(
-          fmt::format("{}: expected at most {} vectors, found more", name_, most_columns));
+          fmt::format("{}: expected at most {} vectors, found more", name_, max_columns));
     }
     columns_.push_back({std::move(name), "", std::move(values)});
   }

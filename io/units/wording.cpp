@@ -99,7 +99,7 @@ std::string_view nearest_name(std::string_view misspelt, std::span<const std::st
   }
   const std::size_t farthest = std::clamp<std::size_t>(wrong.size() / 3, 1, 3);
   std::string_view nearest;
-  std::size_t least = farthest + 1;
+  std::size_t minimum = farthest + 1;
   for (const std::string_view name : known) {
     const std::size_t difference =
         std::max(name.size(), wrong.size()) - std::min(name.size(), wrong.size());
@@ -107,8 +107,8 @@ std::string_view nearest_name(std::string_view misspelt, std::span<const std::st
       continue;
     }
     const std::size_t distance = edit_distance(wrong, lower_case(name));
-    if (distance < least) {
-      least = distance;
+    if (distance < minimum) {
+      minimum = distance;
       nearest = name;
     }
   }

@@ -11,17 +11,18 @@
 
 namespace boresight::numerics {
 
-Interval interval_from_draws(double value, Eigen::VectorXd draws) {
-  if (draws.size() < 20 || !draws.allFinite()) {
+Interval interval_from_samples(double value, Eigen::VectorXd random_samples) {
+  if (random_samples.size() < 20 || !random_samples.allFinite()) {
     throw InvalidInput(
-        fmt::format("interval_from_draws: expected at least 20 finite draws, found {}{}",
-                    draws.size(), draws.allFinite() ? "" : ", not all finite"));
+        fmt::format("interval_from_samples: expected at least 20 finite samples, found {}{}",
+                    random_samples.size(), random_samples.allFinite() ? "" : ", not all finite"));
   }
-  const double mean = draws.mean();
-  const double deviation =
-      std::sqrt((draws.array() - mean).square().sum() / static_cast<double>(draws.size() - 1));
-  std::sort(draws.begin(), draws.end());
-  const std::span<const double> rising(draws.data(), static_cast<std::size_t>(draws.size()));
+  const double mean = random_samples.mean();
+  const double deviation = std::sqrt((random_samples.array() - mean).square().sum() /
+                                     static_cast<double>(random_samples.size() - 1));
+  std::sort(random_samples.begin(), random_samples.end());
+  const std::span<const double> rising(random_samples.data(),
+                                       static_cast<std::size_t>(random_samples.size()));
   return {value, deviation, quantile(rising, 0.025), quantile(rising, 0.975)};
 }
 

@@ -15,7 +15,7 @@ struct Interval {
 /// Interval of the given value from samples about it: their standard deviation and their 2.5 % and
 /// 97.5 % quantiles.
 /// @throws InvalidInput for fewer than 20 samples or one that is not finite.
-Interval interval_from_draws(double value, Eigen::VectorXd draws);
+Interval interval_from_samples(double value, Eigen::VectorXd random_samples);
 
 /// value +- 1.96 standard uncertainties. @throws InvalidInput for an uncertainty that is negative
 /// or not finite.

@@ -57,10 +57,10 @@ struct Subspace {
   // Damping at which the step just reaches the radius; 0 if the undamped one stays within.
   double damping_for(double radius) const {
     double slope = 0.0;
-    if (norm(least_damping(), &slope) <= radius) return least_damping();
+    if (norm(min_damping(), &slope) <= radius) return min_damping();
     // 1/norm is nearly straight in the damping (Reinsch, Hebden): Newton from below, where it
     // converges without overshooting.
-    double damping = least_damping();
+    double damping = min_damping();
     for (int k = 0; k < 60; ++k) {
       const double length = norm(damping, &slope);
       if (std::abs(length - radius) <= 0.05 * radius || slope == 0.0) break;
@@ -70,7 +70,7 @@ struct Subspace {
   }
 
   // Below it the smallest singular values are rounding only.
-  double least_damping() const {
+  double min_damping() const {
     const double unit = std::numeric_limits<double>::epsilon() * svd.values(0);
     return svd.values(svd.values.size() - 1) > 8.0 * unit ? 0.0 : unit * unit;
   }

@@ -19,27 +19,29 @@ double median(const Eigen::VectorXd& values) {
   return median(std::vector<double>(values.begin(), values.end()));
 }
 
-double quantile(std::span<const double> rising, double share) {
-  if (rising.empty() || !(share >= 0.0) || !(share <= 1.0)) {
-    throw InvalidInput(
-        fmt::format("quantile: expected at least one value and a share within [0, 1], found {} and "
-                    "{}",
-                    rising.size(), share));
+double quantile(std::span<const double> rising, double fraction) {
+  if (rising.empty() || !(fraction >= 0.0) || !(fraction <= 1.0)) {
+    throw InvalidInput(fmt::format(
+        "quantile: expected at least one value and a fraction within [0, 1], found {} and "
+        "{}",
+        rising.size(), fraction));
   }
-  const double place = share * static_cast<double>(rising.size() - 1);
+  const double place = fraction * static_cast<double>(rising.size() - 1);
   const auto below = static_cast<std::size_t>(place);
   const double here = rising[below], above = rising[std::min(below + 1, rising.size() - 1)];
   const double part = place - static_cast<double>(below);
   return part > 0.0 && above > here ? here + part * (above - here) : here;
 }
 
-std::ptrdiff_t rank_below_quantile(std::size_t count, double share, double chance) {
-  const boost::math::binomial_distribution<double> draws_below(static_cast<double>(count), share);
+std::ptrdiff_t rank_below_quantile(std::size_t count, double fraction, double probability) {
+  const boost::math::binomial_distribution<double> samples_below(static_cast<double>(count),
+                                                                 fraction);
   // P(draws below <= low) <= chance < P(draws below <= high)
   std::ptrdiff_t low = -1, high = static_cast<std::ptrdiff_t>(count);
   while (high - low > 1) {
     const std::ptrdiff_t middle = low + (high - low) / 2;
-    (boost::math::cdf(draws_below, static_cast<double>(middle)) <= chance ? low : high) = middle;
+    (boost::math::cdf(samples_below, static_cast<double>(middle)) <= probability ? low : high) =
+        middle;
   }
   return low;
 }

@@ -50,10 +50,11 @@ void first_order(const std::vector<UncertainInput>& inputs, const PropagationTar
   // d(1/g) = dg/g^2
   result.standard_uncertainty =
       std::sqrt(variance) * (target.reciprocal ? result.value * result.value : 1.0);
-  for (auto& contribution : result.contributions) contribution.share /= variance;
-  std::erase_if(result.contributions, [](const Contribution& c) { return !(c.share >= 0.01); });
-  std::stable_sort(result.contributions.begin(), result.contributions.end(),
-                   [](const Contribution& x, const Contribution& y) { return x.share > y.share; });
+  for (auto& contribution : result.contributions) contribution.fraction /= variance;
+  std::erase_if(result.contributions, [](const Contribution& c) { return !(c.fraction >= 0.01); });
+  std::stable_sort(
+      result.contributions.begin(), result.contributions.end(),
+      [](const Contribution& x, const Contribution& y) { return x.fraction > y.fraction; });
 }
 
 }  // namespace
@@ -61,9 +62,9 @@ void first_order(const std::vector<UncertainInput>& inputs, const PropagationTar
 std::vector<PropagatedResult> propagate(const std::vector<UncertainInput>& inputs,
                                         const std::vector<PropagationTarget>& targets,
                                         const PropagationOptions& options) {
-  if (options.draws < 100) {
+  if (options.random_samples < 100) {
     throw InvalidInput(
-        fmt::format("propagate: expected at least 100 draws, found {}", options.draws));
+        fmt::format("propagate: expected at least 100 samples, found {}", options.random_samples));
   }
   for (const auto& input : inputs) {
     if (!(input.value > 0.0) || !(input.standard_uncertainty >= 0.0) ||
@@ -75,10 +76,10 @@ std::vector<PropagatedResult> propagate(const std::vector<UncertainInput>& input
     }
   }
   StandardNormals normal(options.seed);
-  const auto draws = static_cast<std::size_t>(options.draws);
-  std::vector<std::vector<double>> samples(targets.size(), std::vector<double>(draws));
+  const auto random_samples = static_cast<std::size_t>(options.random_samples);
+  std::vector<std::vector<double>> samples(targets.size(), std::vector<double>(random_samples));
   std::vector<double> point(inputs.size());
-  for (std::size_t draw = 0; draw < draws; ++draw) {
+  for (std::size_t draw = 0; draw < random_samples; ++draw) {
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const double spread = inputs[i].standard_uncertainty / inputs[i].value;
       point[i] = inputs[i].value * std::exp(spread * normal.next());
@@ -99,7 +100,7 @@ std::vector<PropagatedResult> propagate(const std::vector<UncertainInput>& input
     if (targets[t].reciprocal) {
       const auto positive = std::upper_bound(sorted.begin(), sorted.end(), 0.0);
       result.beyond_pole =
-          static_cast<double>(positive - sorted.begin()) / static_cast<double>(draws);
+          static_cast<double>(positive - sorted.begin()) / static_cast<double>(random_samples);
       const double low = result.lower, high = result.upper;
       constexpr double infinity = std::numeric_limits<double>::infinity();
       result.lower = high > 0.0 ? 1.0 / high : infinity;

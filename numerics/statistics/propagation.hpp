@@ -27,7 +27,7 @@ struct PropagationTarget {
 /// Fraction of a result's variance due to one input.
 struct Contribution {
   std::string input;
-  double share = 0.0;
+  double fraction = 0.0;
 };
 
 struct PropagatedResult {
@@ -46,7 +46,7 @@ struct PropagatedResult {
 };
 
 struct PropagationOptions {
-  int draws = 20000;
+  int random_samples = 20000;
   std::uint64_t seed = 1;
 };
 

@@ -33,11 +33,11 @@ double scrambled(std::uint64_t digits, std::uint64_t stream) {
   return (static_cast<double>(result >> 12) + 0.5) * 0x1p-52;
 }
 
-void check_points(const char* function, std::size_t points, std::size_t least) {
-  if (points < least || points > (std::size_t{1} << 24) || !std::has_single_bit(points)) {
+void check_points(const char* function, std::size_t points, std::size_t minimum) {
+  if (points < minimum || points > (std::size_t{1} << 24) || !std::has_single_bit(points)) {
     throw InvalidInput(
         fmt::format("{}: expected a power of two from {} to 2^24 as number of points, found {}",
-                    function, least, points));
+                    function, minimum, points));
   }
 }
 
@@ -65,16 +65,16 @@ void check(std::size_t inputs, std::size_t outputs, const SobolOptions& options)
 // All values of one randomisation: rows points, columns outputs; A, B, A_B^1, A_B^2, ...
 using Values = std::vector<Eigen::MatrixXd>;
 
-Values evaluate(const Eigen::MatrixXd& points, Eigen::Index outputs, const ShareFunction& function,
-                unsigned threads) {
+Values evaluate(const Eigen::MatrixXd& points, Eigen::Index outputs,
+                const QuantileFunction& function, unsigned threads) {
   const auto inputs = static_cast<std::size_t>(points.cols()) / 2;
   Values values(inputs + 2, Eigen::MatrixXd(points.rows(), outputs));
   for_each_index(static_cast<std::size_t>(points.rows()), threads, [&](std::size_t n) {
     const auto row = static_cast<Eigen::Index>(n);
-    std::vector<double> shares(inputs);
+    std::vector<double> fractions(inputs);
     Eigen::VectorXd out(outputs);
     const auto evaluate_into = [&](std::size_t matrix) {
-      function(shares, out);
+      function(fractions, out);
       if (out.size() != outputs) {
         throw InvalidInput(
             fmt::format("sobol_indices: expected {} outputs of the function, found "
@@ -84,22 +84,22 @@ Values evaluate(const Eigen::MatrixXd& points, Eigen::Index outputs, const Share
       if (!out.allFinite()) {
         throw NumericalFailure(
             fmt::format("sobol_indices: the function is not finite where the inputs stand at the "
-                        "shares {:.6g} of their distributions: indices need a value everywhere",
-                        fmt::join(shares, ", ")));
+                        "fractions {:.6g} of their distributions: indices need a value everywhere",
+                        fmt::join(fractions, ", ")));
       }
       values[matrix].row(row) = out.transpose();
     };
-    const auto share = [&](std::size_t column) {
+    const auto fraction = [&](std::size_t column) {
       return points(row, static_cast<Eigen::Index>(column));
     };
-    for (std::size_t i = 0; i < inputs; ++i) shares[i] = share(inputs + i);
+    for (std::size_t i = 0; i < inputs; ++i) fractions[i] = fraction(inputs + i);
     evaluate_into(1);
-    for (std::size_t i = 0; i < inputs; ++i) shares[i] = share(i);
+    for (std::size_t i = 0; i < inputs; ++i) fractions[i] = fraction(i);
     evaluate_into(0);
     for (std::size_t i = 0; i < inputs; ++i) {
-      shares[i] = share(inputs + i);
+      fractions[i] = fraction(inputs + i);
       evaluate_into(i + 2);
-      shares[i] = share(i);
+      fractions[i] = fraction(i);
     }
   });
   return values;
@@ -207,7 +207,7 @@ Eigen::MatrixXd scrambled_sobol_points(std::size_t points, std::size_t dimension
   return result;
 }
 
-SobolResult sobol_indices(std::size_t inputs, std::size_t outputs, const ShareFunction& function,
+SobolResult sobol_indices(std::size_t inputs, std::size_t outputs, const QuantileFunction& function,
                           const SobolOptions& options) {
   check(inputs, outputs, options);
   const auto rounds = static_cast<Eigen::Index>(options.randomisations);

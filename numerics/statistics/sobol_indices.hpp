@@ -10,7 +10,8 @@ namespace boresight::numerics {
 
 /// A function of independent inputs, each given by its probability (the value of its cumulative
 /// distribution, within (0, 1)); writes its outputs. Called from several threads at once.
-using ShareFunction = std::function<void(const std::vector<double>& shares, Eigen::VectorXd& out)>;
+using QuantileFunction =
+    std::function<void(const std::vector<double>& fractions, Eigen::VectorXd& out)>;
 
 struct SobolOptions {
   /// Points per randomisation, a power of two (needed for a balanced set).
@@ -66,7 +67,7 @@ struct SobolResult {
 /// two within [16, 2^24], fewer than 4 randomisations, or a confidence outside (0, 1).
 /// NumericalFailure for a value that is not finite, naming the probabilities; and exceptions of
 /// `function`.
-SobolResult sobol_indices(std::size_t inputs, std::size_t outputs, const ShareFunction& function,
+SobolResult sobol_indices(std::size_t inputs, std::size_t outputs, const QuantileFunction& function,
                           const SobolOptions& options = {});
 
 /// `points` rows of a scrambled Sobol' sequence in `dimensions` columns, each within (0, 1): every

@@ -46,12 +46,12 @@ ModalSystem to_modal_system(const AntennaPlant& plant) {
   const Eigen::Index spring = input_index(core, "structure_spring");
   const Eigen::Index damping = input_index(core, "structure_damping");
   const Eigen::Index acceleration = output_index(core, "bull_gear_acceleration");
-  const Eigen::Index beam = output_index(core, "beam");
+  const Eigen::Index boresight = output_index(core, "beam");
   core.b(rate, spring) = core.b(rate, damping) = 1.0 / plant.structure.bull_gear_inertia;
   core.c.row(acceleration) = core.a.row(rate);
   core.d.row(acceleration) = core.b.row(rate);
   core.d(output_index(core, "structure_wind"), wind) = 1.0;
-  core.d(beam, input_index(core, "structure_bending")) = 1.0;
+  core.d(boresight, input_index(core, "structure_bending")) = 1.0;
 
   const auto count = static_cast<Eigen::Index>(plant.structure.modes.size());
   VibrationModes& modes = system.modes;
@@ -72,7 +72,7 @@ ModalSystem to_modal_system(const AntennaPlant& plant) {
     modes.displacement_shape(0, i) = mode.stiffness / root;
     modes.displacement_shape(1, i) = mode.damping / root;
     modes.displacement_shape(2, i) = mode.beam_weight / root;
-    core.c(beam, state("bull_gear_angle")) += mode.beam_weight;
+    core.c(boresight, state("bull_gear_angle")) += mode.beam_weight;
   }
   return system;
 }

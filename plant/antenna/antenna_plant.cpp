@@ -49,11 +49,11 @@ Structure make_structure(const StructureSpecification& specification) {
           specification.locked_rotor_frequency);
   double fraction = 0.0;
   double wind = specification.bull_gear_wind_fraction;
-  double beam = specification.bull_gear_beam_weight;
+  double boresight = specification.bull_gear_beam_weight;
   const double w = two_pi * specification.locked_rotor_frequency;
   Structure structure;
   structure.bull_gear_wind_fraction = wind;
-  structure.bull_gear_beam_weight = beam;
+  structure.bull_gear_beam_weight = boresight;
   double apparent_inertia = 0.0;
   for (const auto& mode : specification.modes) {
     require(mode.frequency > specification.locked_rotor_frequency, function,
@@ -68,11 +68,11 @@ Structure make_structure(const StructureSpecification& specification) {
     apparent_inertia += inertia / (1.0 - (w / wi) * (w / wi));
     fraction += mode.inertia_fraction;
     wind += mode.wind_fraction;
-    beam += mode.beam_weight;
+    boresight += mode.beam_weight;
   }
   require(fraction < 1.0, function, "inertia fractions that sum to less than 1", fraction);
   require(std::abs(wind - 1.0) < 1e-6, function, "wind fractions that sum to 1", wind);
-  require(std::abs(beam - 1.0) < 1e-6, function, "beam weights that sum to 1", beam);
+  require(std::abs(boresight - 1.0) < 1e-6, function, "beam weights that sum to 1", boresight);
   structure.bull_gear_inertia = (1.0 - fraction) * antenna;
   structure.gear_stiffness = w * w * (structure.bull_gear_inertia + apparent_inertia);
   structure.gear_damping = 2.0 * specification.gear_damping_ratio * structure.gear_stiffness / w;

@@ -87,8 +87,8 @@ struct AntennaPlant {
 double reflected_inertia(const AntennaPlant& plant);
 
 /// Inputs valve_command (rad/s), wind_torque (N m). Outputs tachometer (rad/s), motor_torque (N m),
-/// encoder (rad of motor, at the bull gear), `beam` (boresight, rad of motor). 8 + 2 modes states.
-/// The free rotation of the antenna is an eigenvalue at 0.
+/// encoder (rad of motor, at the bull gear), `boresight` (boresight, rad of motor). 8 + 2 modes
+/// states. The free rotation of the antenna is an eigenvalue at 0.
 /// @throws InvalidInput for a parameter that is not finite, an inertia, stiffness, valve or
 /// tachometer corner that is not positive, or a damping, leakage or friction below 0.
 StateSpace to_state_space(const AntennaPlant& plant);
@@ -104,8 +104,8 @@ struct PlantMode {
   /// d ln frequency^2/d ln oil_stiffness, leakage rate fixed. Without damping this is the oil
   /// spring's fraction of the mode's elastic energy, 1 for a rigid antenna. With strong damping it
   /// may leave 0 to 1.
-  double oil_share = 0.0;
-  double gear_share = 0.0;  // the same by the gear stiffness, its damping fixed
+  double oil_fraction = 0.0;
+  double gear_fraction = 0.0;  // the same by the gear stiffness, its damping fixed
 };
 
 /// Modes in order of frequency. A part's participation is the sum of |left_k right_k| over its
@@ -118,7 +118,7 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 /// The mode in which the whole antenna moves on the oil spring, with the structure's flexure in
 /// series: the lowest of the modes that move the oil. Only this mode keeps its identity as inertia
 /// or stiffness change. With oil stiffer than the structure, the motors' largest motion passes from
-/// mode to mode above it. Its oil_share shows whether it is a measure of the oil. With a gear
+/// mode to mode above it. Its oil_fraction shows whether it is a measure of the oil. With a gear
 /// spring far softer than the oil it is not, and mode_of_oil is.
 /// If friction and leakage overdamp it, its two real poles p1, p2 are returned as one mode of
 /// frequency sqrt(p1 p2) and damping ratio (p1 + p2)/(2 sqrt(p1 p2)) above 1. `modes`: in order of
@@ -126,7 +126,7 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant);
 /// @throws NumericalFailure if no mode moves motors and oil.
 PlantMode hydraulic_mode(const std::vector<PlantMode>& modes);
 
-/// The mode of the largest oil_share: hydraulic_mode, if no other has more.
+/// The mode of the largest oil_fraction: hydraulic_mode, if no other has more.
 /// @throws NumericalFailure as hydraulic_mode.
 PlantMode mode_of_oil(const std::vector<PlantMode>& modes);
 

@@ -4,7 +4,7 @@
 
 namespace boresight::plant {
 
-numerics::Slope dry_friction(const FrictionCurve& curve, double rate) {
+numerics::ValueAndDerivative dry_friction(const FrictionCurve& curve, double rate) {
   const double w = std::abs(rate);
   const double ws = curve.stribeck_rate;
   const double bump =

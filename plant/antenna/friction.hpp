@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boresight/numerics/slope.hpp>
+#include <boresight/numerics/value_and_derivative.hpp>
 
 namespace boresight::plant {
 
@@ -26,6 +26,6 @@ double friction_slope(const FrictionCurve& curve, double rate);
 
 /// T(w) - Bv w at |rate|, and its derivative by |rate|: the dry part, which at rest is what breaks
 /// away.
-numerics::Slope dry_friction(const FrictionCurve& curve, double rate);
+numerics::ValueAndDerivative dry_friction(const FrictionCurve& curve, double rate);
 
 }  // namespace boresight::plant

@@ -51,10 +51,10 @@ StructureSpecification hold_bull_gear(const VibrationModes& modes) {
   const Eigen::VectorXd encoder = displacement(modes, "encoder");
   const Eigen::VectorXd wind =
       modes.force_shape.rightCols(modes.force_shape.cols() - 1).rowwise().sum();
-  const Eigen::VectorXd beam = displacement(modes, "beam");
+  const Eigen::VectorXd boresight = displacement(modes, "beam");
   const double scale = gear[turn];
   require_whole("the encoder", encoder[turn] / scale);
-  require_whole("the beam", beam[turn] / scale);
+  require_whole("the beam", boresight[turn] / scale);
   require_whole("the wind's work", wind[turn] / scale);
   const double apart = (encoder / encoder[turn] - gear / scale).cwiseAbs().maxCoeff();
   if (apart > 1e-6 * (gear / scale).cwiseAbs().maxCoeff()) {
@@ -78,14 +78,14 @@ StructureSpecification hold_bull_gear(const VibrationModes& modes) {
   for (Index i = 0; i < shapes.cols(); ++i) {
     const auto shape = shapes.col(i);
     const double frequency = std::sqrt(std::max(eigen.values[i], 0.0));
-    const double share = shape[turn] / scale;  // of the turn, in this mode
+    const double fraction = shape[turn] / scale;  // of the turn, in this mode
     const double by_wind = shape.dot(wind) * scale / wind[turn];
-    const double to_beam = shape.dot(beam) * scale / beam[turn];
+    const double to_boresight = shape.dot(boresight) * scale / boresight[turn];
     StructureSpecification::Mode mode;
     mode.frequency = 0.5 * frequency / std::numbers::pi;
-    mode.inertia_fraction = share * share / inertia;
+    mode.inertia_fraction = fraction * fraction / inertia;
     if (mode.inertia_fraction < 1e-9) {
-      if (std::abs(by_wind * to_beam) * inertia > 1e-6) {
+      if (std::abs(by_wind * to_boresight) * inertia > 1e-6) {
         throw InvalidInput(fmt::format(
             "hold_bull_gear: expected modes that the bull gear's motion moves, found one of {:.6g} "
             "Hz that it does not but that moves the beam in wind",
@@ -94,8 +94,8 @@ StructureSpecification hold_bull_gear(const VibrationModes& modes) {
       continue;
     }
     mode.damping_ratio = shape.dot(damping.cwiseProduct(shape)) / (2.0 * frequency);
-    mode.wind_fraction = share * by_wind;
-    mode.beam_weight = share * to_beam;
+    mode.wind_fraction = fraction * by_wind;
+    mode.beam_weight = fraction * to_boresight;
     held.bull_gear_wind_fraction -= mode.wind_fraction;
     held.bull_gear_beam_weight -= mode.beam_weight;
     held.modes.push_back(mode);

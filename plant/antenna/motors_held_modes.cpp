@@ -21,7 +21,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_modes = 8;  // starts go with two to the power of their number
+constexpr std::size_t max_modes = 8;  // starts go with two to the power of their number
 
 [[noreturn]] void refuse(const std::string& message) {
   throw InvalidInput("expected " + message);
@@ -29,12 +29,12 @@ constexpr std::size_t most_modes = 8;  // starts go with two to the power of the
 
 // What the modes' squared frequencies with the bull gear held, the unknowns, must satisfy.
 struct Conditions {
-  VectorXd roots;   // s_0 to s_N
-  VectorXd shares;  // r_i
+  VectorXd roots;      // s_0 to s_N
+  VectorXd fractions;  // r_i
 
   // Logarithms of left over right side.
   VectorXd residuals(const VectorXd& x) const {
-    VectorXd sums = shares.array().log() + 2.0 * x.array().log();
+    VectorXd sums = fractions.array().log() + 2.0 * x.array().log();
     for (Index i = 0; i < x.size(); ++i) {
       for (Index l = 0; l < x.size(); ++l)
         sums[i] += l == i ? 0.0 : std::log(std::abs(x[l] - x[i]));
@@ -58,29 +58,29 @@ struct Conditions {
 
   // As much of a step as keeps every unknown between its two roots, nine tenths of the way at most.
   double allowed(const VectorXd& x, const VectorXd& step) const {
-    double share = 1.0;
+    double fraction = 1.0;
     for (Index i = 0; i < x.size(); ++i) {
       const double end = step[i] > 0.0 ? roots[i + 1] : roots[i];
-      if (step[i] != 0.0) share = std::min(share, 0.9 * (end - x[i]) / step[i]);
+      if (step[i] != 0.0) fraction = std::min(fraction, 0.9 * (end - x[i]) / step[i]);
     }
-    return share;
+    return fraction;
   }
 };
 
 std::optional<VectorXd> newton(const Conditions& conditions, VectorXd x) {
-  constexpr int most_steps = 60;
+  constexpr int max_steps = 60;
   constexpr double exact = 1e-12, rounding = 1e-10, shortest = 1e-4;
   VectorXd residuals = conditions.residuals(x);
-  for (int step = 0; step < most_steps; ++step) {
+  for (int step = 0; step < max_steps; ++step) {
     if (residuals.cwiseAbs().maxCoeff() < exact) return x;
     const VectorXd whole = -conditions.slopes(x).fullPivLu().solve(residuals);
     if (!whole.allFinite()) return std::nullopt;
-    double share = conditions.allowed(x, whole);
+    double fraction = conditions.allowed(x, whole);
     bool closer = false;
-    for (; !closer && share > shortest; share *= 0.5) {
-      const VectorXd next = x + share * whole;
+    for (; !closer && fraction > shortest; fraction *= 0.5) {
+      const VectorXd next = x + fraction * whole;
       const VectorXd there = conditions.residuals(next);
-      closer = there.norm() < (1.0 - 1e-4 * share) * residuals.norm();
+      closer = there.norm() < (1.0 - 1e-4 * fraction) * residuals.norm();
       if (!closer) continue;
       x = next;
       residuals = there;
@@ -96,7 +96,7 @@ std::vector<VectorXd> solutions(const Conditions& conditions) {
   constexpr std::array<double, 2> from_the_end{0.1, 0.001};
   constexpr double same = 1e-6;
   const VectorXd& roots = conditions.roots;
-  const Index modes = conditions.shares.size();
+  const Index modes = conditions.fractions.size();
   std::vector<VectorXd> found;
   for (const double near : from_the_end) {
     for (unsigned ends = 0; ends < (1U << static_cast<unsigned>(modes)); ++ends) {
@@ -126,10 +126,10 @@ Conditions conditions_of(const StructureSpecification& stated) {
   for (Index i = 0; i < modes; ++i) {
     const auto& mode = stated.modes[static_cast<std::size_t>(i)];
     conditions.roots[i + 1] = root(mode.frequency);
-    conditions.shares[i] = mode.inertia_fraction;
+    conditions.fractions[i] = mode.inertia_fraction;
     rest -= mode.inertia_fraction;
   }
-  conditions.shares /= rest;
+  conditions.fractions /= rest;
   return conditions;
 }
 
@@ -165,10 +165,10 @@ void check(const StructureSpecification& stated, const char* fractions) {
     return !solutions(conditions_of(lighter)).empty();
   };
   for (int step = steps - 1; step > 0; --step) {
-    const double share = static_cast<double>(step) / steps;
+    const double fraction = static_cast<double>(step) / steps;
     for (std::size_t i = 0; i < stated.modes.size(); ++i) {
       StructureSpecification lighter = stated;
-      lighter.modes[i].inertia_fraction *= share;
+      lighter.modes[i].inertia_fraction *= fraction;
       if (!exists(lighter)) continue;
       refuse(fmt::format(
           "inertia fractions of which an antenna has these frequencies with the motors held, found "
@@ -179,15 +179,15 @@ void check(const StructureSpecification& stated, const char* fractions) {
     }
   }
   for (int step = steps - 1; step > 0; --step) {
-    const double share = static_cast<double>(step) / steps;
+    const double fraction = static_cast<double>(step) / steps;
     StructureSpecification lighter = stated;
-    for (auto& mode : lighter.modes) mode.inertia_fraction *= share;
+    for (auto& mode : lighter.modes) mode.inertia_fraction *= fraction;
     if (!exists(lighter)) continue;
     refuse(fmt::format(
         "inertia fractions of which an antenna has these frequencies with the motors held, found "
         "none: "
         "with all of them {:.2g} times as large, and the rest at the bull gear, there is one",
-        share));
+        fraction));
   }
   refuse(
       "frequencies that an antenna of these inertia fractions has with the motors held, found "
@@ -279,9 +279,9 @@ std::vector<MotorsHeldMode> motors_held_modes(const Structure& structure) {
 }
 
 std::vector<StructureSpecification> hold_bull_gear_of(const StructureSpecification& motors_held) {
-  if (motors_held.modes.size() > most_modes) {
+  if (motors_held.modes.size() > max_modes) {
     refuse(fmt::format("at most {} modes by their frequencies with the motors held, found {}",
-                       most_modes, motors_held.modes.size()));
+                       max_modes, motors_held.modes.size()));
   }
   check(motors_held, "inertia fractions");
   if (motors_held.modes.empty()) return {motors_held};

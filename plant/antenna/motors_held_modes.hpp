@@ -12,7 +12,7 @@ struct MotorsHeldMode {
   double inertia_fraction = 0.0;  // effective, of the antenna inertia
   /// Fraction of the mode's elastic energy in the gear spring: effective inertia times (2 pi f)^2
   /// over the gear stiffness. These fractions sum to 1 as well.
-  double gear_share = 0.0;
+  double gear_fraction = 0.0;
 };
 
 /// These modes, the lowest first, as measured by a hammer test or computed by a finite-element

@@ -9,7 +9,7 @@ namespace boresight::plant {
 namespace {
 
 constexpr double reached = 1e-10;  // relative
-constexpr int most_rounds = 200;
+constexpr int max_rounds = 200;
 
 // Moves each mode by what its frequency with the motors held is off; the largest ratio it was off
 // by, less 1.
@@ -36,7 +36,7 @@ std::optional<StructureSpecification> with_motors_held_frequencies(
   antenna.locked_rotor_frequency = *frequencies.front();
   for (auto& mode : antenna.modes) mode.frequency *= scale;
   try {
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
       if (move_once(antenna, frequencies) <= reached) return antenna;
     }
   } catch (const InvalidInput&) {

@@ -101,13 +101,13 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
     const Eigen::VectorXd weight =
         eigen.left.col(i).cwiseAbs().cwiseProduct(eigen.right.col(i).cwiseAbs());
     for (const auto& part : parts) {
-      double share = 0.0;
-      for (const Eigen::Index state : part.states) share += weight[state];
-      share /= weight.sum();
-      if (part.description == oil_part) mode.oil_participation = share;
-      if (part.description == gear_part) gear_participation.back() = share;
-      if (share > mode.participation) {
-        mode.participation = share;
+      double fraction = 0.0;
+      for (const Eigen::Index state : part.states) fraction += weight[state];
+      fraction /= weight.sum();
+      if (part.description == oil_part) mode.oil_participation = fraction;
+      if (part.description == gear_part) gear_participation.back() = fraction;
+      if (fraction > mode.participation) {
+        mode.participation = fraction;
         mode.description = part.description;
       }
     }
@@ -117,25 +117,25 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
       const std::complex<double> moved = -plant.drive.oil_stiffness *
                                          std::conj(eigen.left(torque, i)) *
                                          eigen.right(motor_rate, i);
-      mode.oil_share = 2.0 * (moved / pole).real();
+      mode.oil_fraction = 2.0 * (moved / pole).real();
       const std::complex<double> by_gear =
           plant.structure.gear_stiffness *
           (std::conj(eigen.left(motor_rate, i)) / plant.drive.motor_inertia -
            std::conj(eigen.left(bull_rate, i)) / plant.structure.bull_gear_inertia) *
           (eigen.right(bull, i) - eigen.right(motor, i));
-      mode.gear_share = 2.0 * (by_gear / pole).real();
+      mode.gear_fraction = 2.0 * (by_gear / pole).real();
     }
     modes.push_back(std::move(mode));
   }
   for (const std::size_t i : hydraulic_poles(modes)) {
     PlantMode& mode = modes[i];
-    const double share = mode.oil_participation + gear_participation[i];
-    if (share < mode.participation) {
+    const double fraction = mode.oil_participation + gear_participation[i];
+    if (fraction < mode.participation) {
       mode.description += ", the hydraulic mode";
       continue;
     }
     mode.description = hydraulic_description;
-    mode.participation = share;
+    mode.participation = fraction;
   }
   number_the_alike(modes);
   return modes;
@@ -153,18 +153,18 @@ PlantMode hydraulic_mode(const std::vector<PlantMode>& modes) {
   PlantMode both = slow.oil_participation > fast.oil_participation ? slow : fast;
   both.frequency = std::sqrt(first * second) / two_pi;
   both.damping_ratio = (first + second) / (2.0 * std::sqrt(first * second));
-  both.oil_share = 0.5 * (slow.oil_share + fast.oil_share);
-  both.gear_share = 0.5 * (slow.gear_share + fast.gear_share);
+  both.oil_fraction = 0.5 * (slow.oil_fraction + fast.oil_fraction);
+  both.gear_fraction = 0.5 * (slow.gear_fraction + fast.gear_fraction);
   both.description = fmt::format("{}, overdamped", hydraulic_description);
   return both;
 }
 
 PlantMode mode_of_oil(const std::vector<PlantMode>& modes) {
-  PlantMode most = hydraulic_mode(modes);
+  PlantMode maximum = hydraulic_mode(modes);
   for (const auto& mode : modes) {
-    if (mode.pole.imag() != 0.0 && mode.oil_share > most.oil_share) most = mode;
+    if (mode.pole.imag() != 0.0 && mode.oil_fraction > maximum.oil_fraction) maximum = mode;
   }
-  return most;
+  return maximum;
 }
 
 }  // namespace boresight::plant

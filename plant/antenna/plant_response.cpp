@@ -24,7 +24,7 @@ StructureResponse structure_response(const Structure& structure, const Eigen::Ar
     const std::complex<double> s2 = s * s;
     std::complex<double> inertial = structure.bull_gear_inertia * s2;
     std::complex<double> wind = structure.bull_gear_wind_fraction;
-    std::complex<double> beam = structure.bull_gear_beam_weight;
+    std::complex<double> boresight = structure.bull_gear_beam_weight;
     std::complex<double> bending = 0.0;
     for (const auto& mode : structure.modes) {
       const std::complex<double> spring = mode.stiffness + s * mode.damping;
@@ -32,14 +32,14 @@ StructureResponse structure_response(const Structure& structure, const Eigen::Ar
       const std::complex<double> follow = spring * inverse;
       inertial += follow * mode.inertia * s2;
       wind += follow * mode.wind_fraction;
-      beam += follow * mode.beam_weight;
+      boresight += follow * mode.beam_weight;
       bending += inverse * (mode.wind_fraction * mode.beam_weight);
     }
     response.inertial_stiffness[i] = inertial;
     response.gear_stiffness[i] = structure.gear_stiffness + s * structure.gear_damping;
     response.wind_at_bull_gear[i] = wind;
-    response.beam_per_bull_gear[i] = beam;
-    response.beam_per_wind[i] = bending;
+    response.boresight_per_bull_gear[i] = boresight;
+    response.boresight_per_wind[i] = bending;
   }
   return response;
 }
@@ -65,11 +65,12 @@ ResponsePoint drive_on_structure(const Drive& drive, const StructurePoint& struc
   point.tachometer_command = s * lag * (g + b) * push;
   point.torque_command = (own * (g + b) + g * b) * push;
   point.encoder_command = g * push;
-  point.beam_command = structure.beam_per_bull_gear * g * push;
+  point.boresight_command = structure.boresight_per_bull_gear * g * push;
   point.tachometer_wind = s * lag * g * wind;
   point.torque_wind = -g * oil * s * wind;
   point.encoder_wind = (g + a) * wind;
-  point.beam_wind = structure.beam_per_bull_gear * point.encoder_wind + structure.beam_per_wind;
+  point.boresight_wind =
+      structure.boresight_per_bull_gear * point.encoder_wind + structure.boresight_per_wind;
   return point;
 }
 
@@ -80,8 +81,8 @@ PlantResponse plant_response(const StructureResponse& structure, const Drive& dr
     const ResponsePoint point =
         drive_on_structure(drive,
                            {structure.inertial_stiffness[i], structure.gear_stiffness[i],
-                            structure.wind_at_bull_gear[i], structure.beam_per_bull_gear[i],
-                            structure.beam_per_wind[i]},
+                            structure.wind_at_bull_gear[i], structure.boresight_per_bull_gear[i],
+                            structure.boresight_per_wind[i]},
                            structure.frequency[i]);
     set_point(response, i, point);
   }

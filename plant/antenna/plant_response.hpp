@@ -13,9 +13,9 @@ struct StructureResponse {
   Eigen::ArrayXcd
       inertial_stiffness;          // b: dynamic stiffness of bull gear and modes, gear spring free
   Eigen::ArrayXcd gear_stiffness;  // G = Kg + s Cg
-  Eigen::ArrayXcd wind_at_bull_gear;   // torque at the bull gear per wind torque, bull gear held
-  Eigen::ArrayXcd beam_per_bull_gear;  // rad/rad
-  Eigen::ArrayXcd beam_per_wind;       // rad/(N m), bull gear held: bending no encoder sees
+  Eigen::ArrayXcd wind_at_bull_gear;  // torque at the bull gear per wind torque, bull gear held
+  Eigen::ArrayXcd boresight_per_bull_gear;  // rad/rad
+  Eigen::ArrayXcd boresight_per_wind;       // rad/(N m), bull gear held: bending no encoder sees
 };
 
 StructureResponse structure_response(const Structure& structure, const Eigen::ArrayXd& frequency);
@@ -24,8 +24,8 @@ StructureResponse structure_response(const Structure& structure, const Eigen::Ar
 /// (N m), encoder and boresight (rad of motor) at s = j frequency.
 struct PlantResponse {
   Eigen::ArrayXd frequency;  // rad/s
-  Eigen::ArrayXcd tachometer_command, torque_command, encoder_command, beam_command;
-  Eigen::ArrayXcd tachometer_wind, torque_wind, encoder_wind, beam_wind;
+  Eigen::ArrayXcd tachometer_command, torque_command, encoder_command, boresight_command;
+  Eigen::ArrayXcd tachometer_wind, torque_wind, encoder_wind, boresight_wind;
 };
 
 /// Closes the drive onto the structure: a few complex operations a frequency, whatever the number

@@ -5,19 +5,19 @@ namespace boresight::plant {
 
 ResponsePoint point(const PlantResponse& response, Eigen::Index i) {
   return {response.tachometer_command[i], response.torque_command[i],  response.encoder_command[i],
-          response.beam_command[i],       response.tachometer_wind[i], response.torque_wind[i],
-          response.encoder_wind[i],       response.beam_wind[i]};
+          response.boresight_command[i],  response.tachometer_wind[i], response.torque_wind[i],
+          response.encoder_wind[i],       response.boresight_wind[i]};
 }
 
 void set_point(PlantResponse& response, Eigen::Index i, const ResponsePoint& point) {
   response.tachometer_command[i] = point.tachometer_command;
   response.torque_command[i] = point.torque_command;
   response.encoder_command[i] = point.encoder_command;
-  response.beam_command[i] = point.beam_command;
+  response.boresight_command[i] = point.boresight_command;
   response.tachometer_wind[i] = point.tachometer_wind;
   response.torque_wind[i] = point.torque_wind;
   response.encoder_wind[i] = point.encoder_wind;
-  response.beam_wind[i] = point.beam_wind;
+  response.boresight_wind[i] = point.boresight_wind;
 }
 
 PlantResponse unset_response(const Eigen::ArrayXd& frequency) {
@@ -25,8 +25,8 @@ PlantResponse unset_response(const Eigen::ArrayXd& frequency) {
   response.frequency = frequency;
   for (auto* channel :
        {&response.tachometer_command, &response.torque_command, &response.encoder_command,
-        &response.beam_command, &response.tachometer_wind, &response.torque_wind,
-        &response.encoder_wind, &response.beam_wind}) {
+        &response.boresight_command, &response.tachometer_wind, &response.torque_wind,
+        &response.encoder_wind, &response.boresight_wind}) {
     channel->resize(frequency.size());
   }
   return response;
@@ -53,7 +53,7 @@ PointResponse::PointResponse(const AntennaPlant& plant)
 
 // What the modes of each lane add up to.
 struct PointResponse::ModeSum {
-  numerics::ComplexPack inertial, wind, beam, bending;
+  numerics::ComplexPack inertial, wind, boresight, bending;
 
   template <std::size_t width>
   [[gnu::always_inline]] static inline void run(const std::vector<ModePack>& modes, const double& w,
@@ -62,7 +62,7 @@ struct PointResponse::ModeSum {
     using ComplexPart = numerics::ComplexLanes<width>;
     using numerics::part;
     for (std::size_t k = 0; k < numerics::pack_size / width; ++k) {
-      ComplexPart inertial{}, wind{}, beam{}, bending{};
+      ComplexPart inertial{}, wind{}, boresight{}, bending{};
       for (const ModePack& mode : modes) {
         const RealPart stiffness = part<width>(mode.stiffness, k);
         const RealPart wind_fraction = part<width>(mode.wind_fraction, k);
@@ -75,12 +75,12 @@ struct PointResponse::ModeSum {
         const ComplexPart follow = ComplexPart{stiffness, damping} * inverse;
         inertial = inertial - follow * inertia;
         wind = wind + follow * wind_fraction;
-        beam = beam + follow * beam_weight;
+        boresight = boresight + follow * beam_weight;
         bending = bending + inverse * (wind_fraction * beam_weight);
       }
       numerics::set_part(sum.inertial, k, inertial);
       numerics::set_part(sum.wind, k, wind);
-      numerics::set_part(sum.beam, k, beam);
+      numerics::set_part(sum.boresight, k, boresight);
       numerics::set_part(sum.bending, k, bending);
     }
   }
@@ -97,7 +97,7 @@ ResponsePoint PointResponse::operator()(double frequency) const {
                             {total(sum.inertial) - structure_.bull_gear_inertia * w * w,
                              {structure_.gear_stiffness, structure_.gear_damping * w},
                              total(sum.wind) + structure_.bull_gear_wind_fraction,
-                             total(sum.beam) + structure_.bull_gear_beam_weight,
+                             total(sum.boresight) + structure_.bull_gear_beam_weight,
                              total(sum.bending)},
                             w);
 }

@@ -11,8 +11,8 @@ namespace boresight::plant {
 
 /// PlantResponse at one frequency.
 struct ResponsePoint {
-  std::complex<double> tachometer_command, torque_command, encoder_command, beam_command;
-  std::complex<double> tachometer_wind, torque_wind, encoder_wind, beam_wind;
+  std::complex<double> tachometer_command, torque_command, encoder_command, boresight_command;
+  std::complex<double> tachometer_wind, torque_wind, encoder_wind, boresight_wind;
 };
 
 /// One point of a response on a grid.
@@ -24,7 +24,7 @@ PlantResponse unset_response(const Eigen::ArrayXd& frequency);
 /// StructureResponse at one frequency.
 struct StructurePoint {
   std::complex<double> inertial_stiffness, gear_stiffness;
-  std::complex<double> wind_at_bull_gear, beam_per_bull_gear, beam_per_wind;
+  std::complex<double> wind_at_bull_gear, boresight_per_bull_gear, boresight_per_wind;
 };
 
 /// The drive closed onto what it sees of the structure; `frequency`: rad/s.

@@ -217,17 +217,17 @@ VibrationModes to_vibration_modes(const Structure& structure) {
   // Stiffness and damping, each coordinate scaled by the root of its inertia; wind and beam.
   Eigen::VectorXd inertia(masses);
   Eigen::VectorXd wind(masses);
-  Eigen::VectorXd beam(masses);
+  Eigen::VectorXd boresight(masses);
   inertia[0] = structure.bull_gear_inertia;
   wind[0] = structure.bull_gear_wind_fraction;
-  beam[0] = structure.bull_gear_beam_weight;
+  boresight[0] = structure.bull_gear_beam_weight;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(masses, masses);
   Eigen::MatrixXd damping = Eigen::MatrixXd::Zero(masses, masses);
   for (Index i = 1; i < masses; ++i) {
     const auto& mode = structure.modes[static_cast<std::size_t>(i - 1)];
     inertia[i] = mode.inertia;
     wind[i] = mode.wind_fraction;
-    beam[i] = mode.beam_weight;
+    boresight[i] = mode.beam_weight;
     stiffness(i, i) += mode.stiffness;
     stiffness(0, 0) += mode.stiffness;
     stiffness(i, 0) = stiffness(0, i) = -mode.stiffness;
@@ -252,7 +252,7 @@ VibrationModes to_vibration_modes(const Structure& structure) {
   modes.force_shape.resize(masses, 2);
   modes.force_shape << shape.row(0).transpose(), shape.transpose() * wind;
   modes.displacement_shape.resize(3, masses);
-  modes.displacement_shape << shape.row(0), shape.row(0), beam.transpose() * shape;
+  modes.displacement_shape << shape.row(0), shape.row(0), boresight.transpose() * shape;
   return modes;
 }
 

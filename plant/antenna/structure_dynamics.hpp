@@ -14,13 +14,13 @@ namespace boresight::plant {
 /// and masses. VibrationModes: modes of the free antenna (pinions removed) as exported by a
 /// finite-element program, reflected to the motor shaft. Their forces are gear_torque (N m) first,
 /// then the wind's, one per patch of the dish. Their displacements are bull_gear_angle (the same
-/// shape as gear_torque's force), encoder, `beam` (rad of motor). One mode has frequency 0, the
-/// rotation about the axis.
+/// shape as gear_torque's force), encoder, `boresight` (rad of motor). One mode has frequency 0,
+/// the rotation about the axis.
 using StructureModel = std::variant<Structure, VibrationModes>;
 
 /// The structure alone. Inputs gear_torque, then wind_torque (or the wind forces of the modes);
-/// outputs bull_gear_angle, bull_gear_rate, encoder, `beam`. States: angle and rate of the bull
-/// gear, then of each mass; or the coordinate and rate of each mode.
+/// outputs bull_gear_angle, bull_gear_rate, encoder, `boresight`. States: angle and rate of the
+/// bull gear, then of each mass; or the coordinate and rate of each mode.
 /// @throws InvalidInput for an inertia or stiffness that is not positive, a damping below 0, or a
 /// value that is not finite. Also for modes without the ports above, of inconsistent sizes, or
 /// without exactly one of frequency 0.

@@ -166,9 +166,9 @@ double FastIntegrator::error_of(const CollocationStep& step) {
           options_.absolute_tolerance[i] +
           options_.relative_tolerance *
               std::max(std::abs(now_.z[i]), std::abs(solver_.z()[(stages - 1) * p + i]));
-      const double share = weight * std::abs(error[j * p + i]) / allowed;
-      if (share <= worst) continue;
-      worst = share;
+      const double fraction = weight * std::abs(error[j * p + i]) / allowed;
+      if (fraction <= worst) continue;
+      worst = fraction;
       worst_input_ = i;
     }
   }

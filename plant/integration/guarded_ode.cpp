@@ -10,7 +10,7 @@ namespace boresight::plant {
 namespace {
 
 // Where a state leaves for infinity, an integrator may go on for ever at the same time.
-constexpr int most_standing_steps = 100;
+constexpr int max_standing_steps = 100;
 
 // The first element that is not finite, counted from 0; there is one.
 std::string describe(const char* function, double t,
@@ -36,8 +36,9 @@ void GuardedOde::start(double t) {
 }
 
 template <class Evaluate>
-int GuardedOde::judge(const char* function, double t,
-                      const Eigen::Ref<const Eigen::MatrixXd>& values, const Evaluate& evaluate) {
+int GuardedOde::classify(const char* function, double t,
+                         const Eigen::Ref<const Eigen::MatrixXd>& values,
+                         const Evaluate& evaluate) {
   try {
     evaluate();
     complaint_.clear();
@@ -53,7 +54,7 @@ int GuardedOde::judge(const char* function, double t,
 int GuardedOde::rate(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                      Eigen::Ref<Eigen::VectorXd> dx, long accepted_steps) {
   const bool stands = stands_still(t, accepted_steps);
-  const int verdict = judge("rate", t, dx, [&] { system_.rate(t, x, dx); });
+  const int verdict = classify("rate", t, dx, [&] { system_.rate(t, x, dx); });
   if (verdict != 0 || !stands) return verdict;
   complaint_ = fmt::format("the steps are below the rounding of the time since {} s", accepted_);
   return give_up;
@@ -66,7 +67,7 @@ bool GuardedOde::stands_still(double t, long accepted_steps) {
     accepted_steps_ = accepted_steps;
   }
   asked_ = t;
-  return standing_ >= most_standing_steps;
+  return standing_ >= max_standing_steps;
 }
 
 // Whether no smaller step is to be had. It is else tried again and again that little before where
@@ -77,17 +78,17 @@ bool GuardedOde::within_rounding(double t) const {
 
 int GuardedOde::jacobian(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                          Eigen::Ref<Eigen::MatrixXd> j) {
-  return judge("jacobian", t, j, [&] { system_.jacobian(t, x, j); });
+  return classify("jacobian", t, j, [&] { system_.jacobian(t, x, j); });
 }
 
 int GuardedOde::rate_by_parameters(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                                    Eigen::Ref<Eigen::MatrixXd> df_dp) {
-  return judge("rate_by_parameters", t, df_dp, [&] { system_.rate_by_parameters(t, x, df_dp); });
+  return classify("rate_by_parameters", t, df_dp, [&] { system_.rate_by_parameters(t, x, df_dp); });
 }
 
 int GuardedOde::event_values(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                              Eigen::Ref<Eigen::VectorXd> g) {
-  return judge("event_values", t, g, [&] { system_.event_values(t, x, g); });
+  return classify("event_values", t, g, [&] { system_.event_values(t, x, g); });
 }
 
 void GuardedOde::rethrow() {

@@ -43,8 +43,8 @@ class GuardedOde {
 
  private:
   template <class Evaluate>
-  int judge(const char* function, double t, const Eigen::Ref<const Eigen::MatrixXd>& values,
-            const Evaluate& evaluate);
+  int classify(const char* function, double t, const Eigen::Ref<const Eigen::MatrixXd>& values,
+               const Evaluate& evaluate);
   bool stands_still(double t, long accepted_steps);
   bool within_rounding(double t) const;
 

@@ -43,7 +43,7 @@ MappedVector writable(N_Vector vector) {
 const char* remedy(int flag) {
   switch (flag) {
     case CV_TOO_MUCH_WORK:
-      return "raise most_steps or the tolerances, solve a stiff system by Newton's iteration, or "
+      return "raise max_steps or the tolerances, solve a stiff system by Newton's iteration, or "
              "make a jump of the rate an event";
     case CV_TOO_MUCH_ACC:
       return "raise relative_tolerance or absolute_tolerance: rounding is above them";
@@ -151,7 +151,7 @@ void OdeIntegrator::Solver::configure(const OdeOptions& options) {
     expect(CVodeSVtolerances(memory.get(), options.relative_tolerance, tolerances.get()));
   }
   expect(CVodeSetMaxOrd(memory.get(), std::min(options.highest_order, bdf ? 5 : 12)));
-  expect(CVodeSetMaxNumSteps(memory.get(), options.most_steps));
+  expect(CVodeSetMaxNumSteps(memory.get(), options.max_steps));
   if (std::isfinite(options.longest_step)) {
     expect(CVodeSetMaxStep(memory.get(), options.longest_step));
   }

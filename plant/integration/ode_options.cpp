@@ -59,8 +59,8 @@ void validate(const OdeOptions& options, const OdeSystem& system) {
   if (!(options.longest_step > 0.0)) {
     refuse(fmt::format("a longest_step above 0, found {} s", options.longest_step));
   }
-  if (options.most_steps <= 0) {
-    refuse(fmt::format("most_steps above 0, found {}", options.most_steps));
+  if (options.max_steps <= 0) {
+    refuse(fmt::format("max_steps above 0, found {}", options.max_steps));
   }
   if (options.sensitivities) validate_sensitivities(options, system);
 }

@@ -35,7 +35,7 @@ struct OdeOptions {
   /// shortest change of sign and back that must not be missed.
   double longest_step = std::numeric_limits<double>::infinity();
   /// Cap on the steps of each advance().
-  long most_steps = 10'000'000;
+  long max_steps = 10'000'000;
   /// Also integrate s = dx/dp by s' = (df/dx) s + df/dp, under error control like the states.
   bool sensitivities = false;
   /// states x parameters, of the initial state; empty: zero.
@@ -46,7 +46,7 @@ struct OdeOptions {
 };
 
 /// @throws InvalidInput for a relative tolerance outside [0, 1), absolute tolerances not above 0 or
-/// neither 1 nor system.states() in number, a highest_order, longest_step or most_steps not above
+/// neither 1 nor system.states() in number, a highest_order, longest_step or max_steps not above
 /// 0, and if sensitivities are asked for: by fixed-point iteration, of a system without parameters,
 /// initial sensitivities or parameter scales of a wrong shape or not finite, a scale not above 0.
 void validate(const OdeOptions& options, const OdeSystem& system);

@@ -9,13 +9,13 @@ namespace boresight::plant {
 namespace {
 
 constexpr Eigen::Index stages = collocation_stages;
-constexpr int most_iterations = 10;
+constexpr int max_iterations = 10;
 // What Newton's method may leave of the tolerance.
-constexpr double newton_share = 0.01;
+constexpr double newton_fraction = 0.01;
 
 // A slope that jumps by 1 between two nodes has a third difference of 3.3 to 10; by where it jumps,
 // the rule errs by up to 0.024, 0.024 and 0.012 of the jump.
-constexpr double kink_share = 0.005;
+constexpr double kink_fraction = 0.005;
 
 // The third divided difference of values at 0 and at the stages, as their weights.
 std::array<double, stages + 1> third_difference() {
@@ -217,7 +217,7 @@ StageSolver::Outcome StageSolver::solve(const CollocationStep& step, const Eigen
   z_.noalias() += step.channels_to_stages * n;
   double last = 0.0;
   double rate = std::pow(rate_, 0.8);
-  while (iterations_ < most_iterations) {
+  while (iterations_ < max_iterations) {
     ++iterations_;
     if (!evaluate_stages()) return Outcome::not_finite;
     spread_ = f_ - n;
@@ -246,7 +246,7 @@ StageSolver::Outcome StageSolver::solve(const CollocationStep& step, const Eigen
       if (!(ratio < 2.0) || (iterations_ > 2 && ratio >= 1.0)) break;
       rate = ratio;
     }
-    if (size * rate <= newton_share * (1.0 - std::min(rate, 0.99))) {
+    if (size * rate <= newton_fraction * (1.0 - std::min(rate, 0.99))) {
       rate_ = std::max(rate, 1e-10);
       return Outcome::converged;
     }
@@ -284,7 +284,7 @@ void StageSolver::find_defects(const StageValues& start, const Eigen::VectorXd& 
       kink += std::abs(third) * path;
     }
     defects_[i] = defect;
-    defects_[q_ + i] = std::copysign(kink_share * kink, defect);
+    defects_[q_ + i] = std::copysign(kink_fraction * kink, defect);
   }
 }
 

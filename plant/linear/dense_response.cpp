@@ -282,8 +282,8 @@ void DenseResponse::choose_start(const StateSpace& scaled) {
     if (error(from_inputs[k], from_outputs[k]) > sound) different.push_back(k);
   }
   // Where one is sound and the other is not; where neither is, below integrators, both are lost.
-  constexpr std::size_t most_solves = 9;
-  const std::size_t solves = std::min(most_solves, different.size());
+  constexpr std::size_t max_solves = 9;
+  const std::size_t solves = std::min(max_solves, different.size());
   int for_outputs = 0;
   for (std::size_t i = 0; i < solves; ++i) {
     const std::size_t k = different[i * different.size() / solves];

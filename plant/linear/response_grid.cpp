@@ -13,7 +13,7 @@
 namespace boresight::plant {
 namespace {
 
-constexpr double most_points = 4e6;
+constexpr double max_points = 4e6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void check(double sample_time, const ResponseGridOptions& options) {
@@ -99,7 +99,7 @@ Eigen::ArrayXd response_grid(const Eigen::VectorXcd& given_features, double samp
   const double width = std::log(highest / lowest);
   const double step = std::numbers::ln10 / options.points_per_decade;
   const double plain = std::ceil(width / step);
-  if (!(plain + highest / options.longest_step < most_points)) {
+  if (!(plain + highest / options.longest_step < max_points)) {
     throw InvalidInput(fmt::format(
         "response_grid: from {} to {} rad/s in steps of at most {} rad/s and {} points a decade "
         "are more than four million points; narrow the limits",

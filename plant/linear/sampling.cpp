@@ -13,7 +13,7 @@ namespace boresight::plant {
 namespace {
 
 // The most states that dead times may add: more is a wrong unit, not a plant.
-constexpr double most_held_states = 10000.0;
+constexpr double max_held_states = 10000.0;
 
 Eigen::Index held_states(const DeadTimeInSamples& late) {
   return late.samples + (late.rest > 0.0 ? 1 : 0);
@@ -34,7 +34,7 @@ void check(const StateSpace& system, double sample_time, SamplingMethod method,
   if (options.prewarp_frequency != 0.0) {
     const double nyquist = std::numbers::pi / sample_time;
     if (method != SamplingMethod::tustin) {
-      throw InvalidInput("sample: prewarp_frequency goes with Tustin's method only");
+      throw InvalidInput("sample: prewarp_frequency applies to Tustin's method only");
     }
     if (!(options.prewarp_frequency > 0.0) || !(options.prewarp_frequency < nyquist)) {
       throw InvalidInput(
@@ -56,11 +56,11 @@ void check(const StateSpace& system, double sample_time, SamplingMethod method,
   for (std::size_t j = 0; j < options.dead_times.size(); ++j) {
     const double dead_time = options.dead_times[j];
     held += dead_time / sample_time;
-    if (!(dead_time >= 0.0) || !(held <= most_held_states)) {
+    if (!(dead_time >= 0.0) || !(held <= max_held_states)) {
       throw InvalidInput(
           fmt::format("sample: expected a dead time of 0 or more, {} samples at most in all, found "
                       "{} s at the input '{}' (T = {} s)",
-                      most_held_states, dead_time, system.inputs[j], sample_time));
+                      max_held_states, dead_time, system.inputs[j], sample_time));
     }
   }
 }

@@ -44,10 +44,10 @@ numerics::TaylorModel resonance_inverse(double w0, double decay,
                               0.0},
                              interval.half_width);
   }
-  const double least = distance({-decay, w0}, interval) * distance({-decay, -w0}, interval);
+  const double minimum = distance({-decay, w0}, interval) * distance({-decay, -w0}, interval);
   return numerics::inverse(
       {{(w0 - c) * (w0 + c) + decay * decay, 2.0 * decay * c}, {-2.0 * c, 2.0 * decay}, -1.0, 0.0},
-      interval.half_width, least);
+      interval.half_width, minimum);
 }
 
 StateSpaceEnclosure::StateSpaceEnclosure(const StateSpace& system) : system_(balanced(system)) {
@@ -121,14 +121,15 @@ void StateSpaceEnclosure::by_sections(const numerics::FrequencyInterval& interva
     }
     // What rounding of the pole, the residue and the sums may add. Near its own pole an element is
     // inversely proportional to the distance, so the pole's error counts relative to that.
-    double least = interval.reciprocal ? std::abs(section.pole) : distance(section.pole, interval);
+    double minimum =
+        interval.reciprocal ? std::abs(section.pole) : distance(section.pole, interval);
     if (interval.reciprocal) {
       const double lowest = 1.0 / (c + h);
-      least = std::hypot(decay, std::max(0.0, lowest - section.pole.imag()));
+      minimum = std::hypot(decay, std::max(0.0, lowest - section.pole.imag()));
     }
     const double level_size = magnitude_bound(level, h) + level.rest;
     const double slope_size = magnitude_bound(slope, h) + slope.rest;
-    const double relative = 4.0 * epsilon + 2.0 * section.pole_error / least;
+    const double relative = 4.0 * epsilon + 2.0 * section.pole_error / minimum;
     for (std::size_t k = 0; k < elements.size(); ++k) {
       const double l = section.level[k], s = section.slope[k];
       numerics::TaylorModel& element = elements[k];

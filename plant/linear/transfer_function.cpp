@@ -57,10 +57,10 @@ struct Section {
 
 // Where a root lies in the s-plane, 0 excepted.
 Complex place(Complex root, double sample_time) {
-  constexpr double least = 1e-300;
-  if (sample_time == 0.0) return root == 0.0 ? Complex(least) : root;
-  const Complex logarithm = std::log(std::abs(root) < least ? Complex(least) : root);
-  return logarithm == 0.0 ? Complex(least) : logarithm;
+  constexpr double minimum = 1e-300;
+  if (sample_time == 0.0) return root == 0.0 ? Complex(minimum) : root;
+  const Complex logarithm = std::log(std::abs(root) < minimum ? Complex(minimum) : root);
+  return logarithm == 0.0 ? Complex(minimum) : logarithm;
 }
 
 // How badly a zero and a pole go together: decades apart first, then direction.
@@ -90,11 +90,11 @@ class Pairing {
   // With a pair of poles that has no zeros yet, or with two real poles.
   void place_pair(Complex zero) {
     Section* best = nullptr;
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (auto& section : sections_) {
       if (!section.zeros.empty()) continue;
       const double apart = distance(zero, section.poles.front(), sample_time_);
-      if (apart < least) std::tie(best, least) = std::pair(&section, apart);
+      if (apart < minimum) std::tie(best, minimum) = std::pair(&section, apart);
     }
     std::sort(single_.begin(), single_.end(), [&](Complex a, Complex b) {
       return distance(zero, a, sample_time_) > distance(zero, b, sample_time_);
@@ -102,7 +102,7 @@ class Pairing {
     if (const std::size_t n = single_.size(); n >= 2) {
       const double apart = 0.5 * (distance(zero, single_[n - 1], sample_time_) +
                                   distance(zero, single_[n - 2], sample_time_));
-      if (apart < least) {
+      if (apart < minimum) {
         sections_.push_back({{single_[n - 2], single_[n - 1]}, {}});
         single_.resize(n - 2);
         best = &sections_.back();
@@ -113,11 +113,11 @@ class Pairing {
 
   void place_real(Complex zero) {
     Section* best = nullptr;
-    double least = std::numeric_limits<double>::infinity();
+    double minimum = std::numeric_limits<double>::infinity();
     for (auto& section : sections_) {
       if (section.zeros.size() == section.poles.size()) continue;
       const double apart = distance(zero, section.poles.front(), sample_time_);
-      if (apart < least) std::tie(best, least) = std::pair(&section, apart);
+      if (apart < minimum) std::tie(best, minimum) = std::pair(&section, apart);
     }
     best->zeros.push_back(zero);
   }

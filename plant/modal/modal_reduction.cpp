@@ -263,10 +263,10 @@ ModalReduction reduce(const ModalSystem& system, std::string_view input, std::st
     rows.push_back(drive.row);
     kept_drives.push_back(&drive);
   }
-  if (kept_drives.size() > most_drives) {
+  if (kept_drives.size() > max_drives) {
     throw InvalidInput(fmt::format(
         "modal system: expected at most {} forces and dead times between '{}' and '{}', found {}",
-        most_drives, input, output, kept_drives.size()));
+        max_drives, input, output, kept_drives.size()));
   }
   std::vector<const Back*> kept_returns;
   for (const auto& back : returns) {

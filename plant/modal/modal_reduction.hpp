@@ -51,6 +51,6 @@ struct ModalReduction {
 /// for more than 16 drives between the two.
 ModalReduction reduce(const ModalSystem& system, std::string_view input, std::string_view output);
 
-inline constexpr std::size_t most_drives = 16;
+inline constexpr std::size_t max_drives = 16;
 
 }  // namespace boresight::plant

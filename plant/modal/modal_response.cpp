@@ -30,7 +30,7 @@ class Workspace {
 // Solves the small system of a block frequency by frequency, Gaussian elimination with partial
 // pivoting; matrix[i * count + j] and right[i] are FrequencyLanes, the solution replaces `right`.
 void solve_small(FrequencyLanes* matrix, FrequencyLanes* right, std::size_t count, std::size_t n) {
-  std::array<std::array<Complex, most_drives + 1>, most_drives> rows;
+  std::array<std::array<Complex, max_drives + 1>, max_drives> rows;
   for (std::size_t lane = 0; lane < n; ++lane) {
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < count; ++j) {
@@ -149,7 +149,7 @@ void ModalResponse::evaluate_block(const double* w, std::size_t n, Complex* resu
   frequency_kernels::sum_modes(
       reduction_.mode_frequency.data(), reduction_.mode_damping_ratio.data(), mode_gain_.data(),
       static_cast<std::size_t>(reduction_.mode_frequency.size()), mode_path_.size(), w, n, sums);
-  std::array<FrequencyLanes*, most_drives * most_drives> few{};
+  std::array<FrequencyLanes*, max_drives * max_drives> few{};
   std::vector<FrequencyLanes*> many;
   FrequencyLanes** transfer = few.data();
   if (reduction_.paths.size() > few.size()) {
@@ -192,8 +192,8 @@ void ModalResponse::evaluate_block(const double* w, std::size_t n, Complex* resu
   };
 
   // Drives known from the input alone, and the returns that they make.
-  std::array<FrequencyLanes*, most_drives> drive{};
-  std::array<std::size_t, most_drives> looped{};
+  std::array<FrequencyLanes*, max_drives> drive{};
+  std::array<std::size_t, max_drives> looped{};
   std::size_t unknowns = 0;
   for (std::size_t k = 0; k < drives; ++k) {
     if (reduction_.in_loop[k]) {

@@ -19,8 +19,8 @@ struct EdgeFlow {
 // One at half the supply less the return across the edge and full opening.
 EdgeFlow edge_flow(const OilCircuit& oil, double opening, double drop) {
   const double half = 0.5 * (oil.supply_torque - oil.return_torque);
-  const numerics::Slope at_half = orifice(1.0, half, oil.laminar_torque);
-  const numerics::Slope root = orifice(1.0 / at_half.value, drop, oil.laminar_torque);
+  const numerics::ValueAndDerivative at_half = orifice(1.0, half, oil.laminar_torque);
+  const numerics::ValueAndDerivative root = orifice(1.0 / at_half.value, drop, oil.laminar_torque);
   return {opening * root.value, root.value, opening * root.derivative};
 }
 
@@ -50,7 +50,7 @@ AntennaChannels::AntennaChannels(const ServoValve& valve, const OilCircuit& oil,
 void AntennaChannels::flows(const Eigen::Ref<const Eigen::VectorXd>& z,
                             Eigen::Ref<Eigen::VectorXd> n,
                             Eigen::Ref<Eigen::MatrixXd> dn_dz) const {
-  const numerics::Slope port = port_opening(valve_, z[spool] + valve_.null_offset);
+  const numerics::ValueAndDerivative port = port_opening(valve_, z[spool] + valve_.null_offset);
   const double opening = std::abs(port.value);
   const bool upward = port.value >= 0.0;
   const double direction = upward ? 1.0 : -1.0;
@@ -68,8 +68,8 @@ void AntennaChannels::flows(const Eigen::Ref<const Eigen::VectorXd>& z,
   };
   const EdgeFlow into_1 = upward ? fed(z[manifold_1]) : drained(z[manifold_1]);
   const EdgeFlow into_2 = upward ? drained(z[manifold_2]) : fed(z[manifold_2]);
-  const numerics::Slope makeup_1 = makeup_flow(oil_, z[side_1]);
-  const numerics::Slope makeup_2 = makeup_flow(oil_, z[side_2]);
+  const numerics::ValueAndDerivative makeup_1 = makeup_flow(oil_, z[side_1]);
+  const numerics::ValueAndDerivative makeup_2 = makeup_flow(oil_, z[side_2]);
   const double null = oil_.null_leakage * (oil_.supply_torque + oil_.return_torque);
   const double by_spool = direction * port.derivative;
 
@@ -86,7 +86,7 @@ void AntennaChannels::flows(const Eigen::Ref<const Eigen::VectorXd>& z,
   const double leak = 2.0 * oil_.null_leakage + oil_.case_leakage;
   const double cross = oil_.cross_leakage;
   const auto soften = [&](Index row, Index flow, double sign, Input side, Input other) {
-    const numerics::Slope ratio = stiffness_ratio(oil_, z[side]);
+    const numerics::ValueAndDerivative ratio = stiffness_ratio(oil_, z[side]);
     const double less = ratio.value - 1.0;
     const double net =
         sign * (z[spool] - z[motor_rate]) + n[flow] - cross * (z[side] - z[other]) - leak * z[side];
@@ -106,8 +106,8 @@ void AntennaChannels::friction(const Eigen::Ref<const Eigen::VectorXd>& z,
                                Eigen::Ref<Eigen::MatrixXd> dn_dz) const {
   const double rate = z[motor_rate];
   const double sign = rate < 0.0 ? -1.0 : 1.0;
-  const numerics::Slope dry = dry_friction(friction_.curve, rate);
-  const numerics::Slope offset = offset_torque(offset_, z[motor_angle]);
+  const numerics::ValueAndDerivative dry = dry_friction(friction_.curve, rate);
+  const numerics::ValueAndDerivative offset = offset_torque(offset_, z[motor_angle]);
   const double viscous = friction_.curve.viscous_friction;
   const double stiffness = friction_.bristle_stiffness;
   n[friction_and_offset] = viscous * rate + offset.value;
@@ -121,10 +121,10 @@ void AntennaChannels::friction(const Eigen::Ref<const Eigen::VectorXd>& z,
     return;
   }
   const double load = stiffness * z[bristle];
-  const double share = std::abs(rate) / dry.value;
-  const double bend = rate - share * load;
-  const double by_rate = 1.0 - sign * load / dry.value * (1.0 - share * dry.derivative);
-  const double by_bristle = -share * stiffness;
+  const double fraction = std::abs(rate) / dry.value;
+  const double bend = rate - fraction * load;
+  const double by_rate = 1.0 - sign * load / dry.value * (1.0 - fraction * dry.derivative);
+  const double by_bristle = -fraction * stiffness;
   const Index row = position(bristle_rate);
   n[row] = bend;
   dn_dz(row, motor_rate) = by_rate;

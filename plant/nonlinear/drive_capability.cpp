@@ -82,8 +82,8 @@ double LoadedDrive::load(double rate) const {
 
 double LoadedDrive::excess(double rate, double stroke) const {
   const double torque = load(rate);
-  const double share = (rate + leakage_ * torque) / stroke;
-  return torque - available_ * (1.0 - share * share);
+  const double fraction = (rate + leakage_ * torque) / stroke;
+  return torque - available_ * (1.0 - fraction * fraction);
 }
 
 double LoadedDrive::attainable_rate(double stroke) const {

@@ -5,7 +5,7 @@
 
 namespace boresight::plant {
 
-numerics::Slope port_opening(const ServoValve& valve, double spool) {
+numerics::ValueAndDerivative port_opening(const ServoValve& valve, double spool) {
   const double travel = std::abs(spool);
   if (travel < valve.overlap) return {0.0, 0.0};
   if (travel >= valve.stroke_limit) {
@@ -14,11 +14,11 @@ numerics::Slope port_opening(const ServoValve& valve, double spool) {
   return {std::copysign(travel - valve.overlap, spool), 1.0};
 }
 
-numerics::Slope stiffness_ratio(const OilCircuit& oil, double torque) {
+numerics::ValueAndDerivative stiffness_ratio(const OilCircuit& oil, double torque) {
   if (oil.air_fraction == 0.0) return {1.0, 0.0};
-  const double least = 1e-3 * oil.atmosphere_torque;
-  const bool held = torque < least;
-  const double p = held ? least : torque;
+  const double minimum = 1e-3 * oil.atmosphere_torque;
+  const bool held = torque < minimum;
+  const double p = held ? minimum : torque;
   const double n = oil.polytropic_exponent;
   const double air = oil.air_fraction * oil.bulk_modulus_torque / (n * p) *
                      std::pow(oil.atmosphere_torque / p, 1.0 / n);
@@ -26,12 +26,12 @@ numerics::Slope stiffness_ratio(const OilCircuit& oil, double torque) {
   return {ratio, held ? 0.0 : ratio * ratio * air * (1.0 + 1.0 / n) / p};
 }
 
-numerics::Slope makeup_flow(const OilCircuit& oil, double torque) {
+numerics::ValueAndDerivative makeup_flow(const OilCircuit& oil, double torque) {
   if (torque >= oil.makeup_torque) return {0.0, 0.0};
   return {oil.makeup_conductance * (oil.makeup_torque - torque), -oil.makeup_conductance};
 }
 
-numerics::Slope offset_torque(const OffsetTorque& offset, double motor_angle) {
+numerics::ValueAndDerivative offset_torque(const OffsetTorque& offset, double motor_angle) {
   const double elevation = offset.elevation + motor_angle / offset.gear_ratio;
   const double c = std::cos(elevation);
   const double s = std::sin(elevation);
@@ -43,7 +43,7 @@ namespace {
 
 // How far a half's flank is compressed: its own (positive), or the opposite one behind the backlash
 // (negative).
-double carried(const GearContact& gear, double side, double windup) {
+double active(const GearContact& gear, double side, double windup) {
   const double compression = side * windup + gear.preload_torque / (0.5 * gear.stiffness);
   return compression < 0.0 ? std::min(0.0, compression + gear.backlash) : compression;
 }
@@ -59,7 +59,7 @@ GearTorque gear_torque(const GearContact& gear, double windup, double windup_rat
   const double brought_in = 0.1 * gear.preload_torque / stiffness;
   GearTorque torque;
   for (const double side : {1.0, -1.0}) {
-    const double compression = carried(gear, side, windup);
+    const double compression = active(gear, side, windup);
     if (compression == 0.0) continue;
     const double hold = std::abs(compression) / brought_in;
     const double damping = 0.5 * gear.damping * std::min(1.0, hold);
@@ -78,7 +78,7 @@ double gear_energy(const GearContact& gear, double windup) {
   if (std::isinf(gear.backlash)) return 0.5 * gear.stiffness * windup * windup;
   double energy = 0.0;
   for (const double side : {1.0, -1.0}) {
-    energy += 0.25 * gear.stiffness * std::pow(carried(gear, side, windup), 2);
+    energy += 0.25 * gear.stiffness * std::pow(active(gear, side, windup), 2);
   }
   return energy;
 }

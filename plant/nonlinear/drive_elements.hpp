@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include <boresight/numerics/slope.hpp>
+#include <boresight/numerics/value_and_derivative.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
 /// The parts of the hydraulic drive at the motor shaft, all motors lumped. Pressures are written as
@@ -27,7 +27,7 @@ struct ServoValve {
 
 /// Port opening of a spool position: odd, 0 within the overlap, then in proportion, constant beyond
 /// the stroke limit: overlap <= stroke_limit.
-numerics::Slope port_opening(const ServoValve& valve, double spool);
+numerics::ValueAndDerivative port_opening(const ServoValve& valve, double spool);
 
 /// One motor's pair of oil lines (inlet and outlet alike), closed by the motor at one end and the
 /// valve at the other: half-wave modes k c/(2L), k = 1..modes, driven by both ends' flows.
@@ -77,11 +77,11 @@ struct OilCircuit {
 ///   1/(1 + (beta/n p) a (p_a/p)^(1/n)),   p absolute
 /// (H. E. Merritt, Hydraulic Control Systems, 1967, ch. 2, with a polytropic gas). 1 without air;
 /// below a thousandth of an atmosphere its value there.
-numerics::Slope stiffness_ratio(const OilCircuit& oil, double torque);
+numerics::ValueAndDerivative stiffness_ratio(const OilCircuit& oil, double torque);
 
 /// Flow of the make-up valve of a side (rad/s) at torque-equivalent pressure p: conductance times
 /// max(0, makeup_torque - p).
-numerics::Slope makeup_flow(const OilCircuit& oil, double torque);
+numerics::ValueAndDerivative makeup_flow(const OilCircuit& oil, double torque);
 
 /// Friction of motors, gears and bearings at the motor shaft: LuGre bristles on a steady curve,
 ///   z' = w - stiffness |w| z / g(w),   T = stiffness z + damping z' + Bv w,
@@ -105,7 +105,7 @@ struct OffsetTorque {
 };
 
 /// Torque at a motor angle (rad); the drive has to give it.
-numerics::Slope offset_torque(const OffsetTorque& offset, double motor_angle);
+numerics::ValueAndDerivative offset_torque(const OffsetTorque& offset, double motor_angle);
 
 /// Gear spring in two halves that counter-torque motors press against opposite flanks: both carry
 /// while the windup stays below the preload's, then one half crosses its backlash.

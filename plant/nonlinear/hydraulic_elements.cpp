@@ -21,7 +21,8 @@ void check(const char* function, const char* argument, double value, Range range
 
 }  // namespace
 
-numerics::Slope orifice(double coefficient, double pressure_difference, double transition) {
+numerics::ValueAndDerivative orifice(double coefficient, double pressure_difference,
+                                     double transition) {
   const double square = pressure_difference * pressure_difference;
   const double transition_square = transition * transition;
   const double sum = square + transition_square;
@@ -38,7 +39,8 @@ double orifice_coefficient(double opening, double discharge_coefficient, double 
   return discharge_coefficient * opening * std::sqrt(2.0 / density);
 }
 
-numerics::Slope check_valve(double coefficient, double pressure_difference, double transition) {
+numerics::ValueAndDerivative check_valve(double coefficient, double pressure_difference,
+                                         double transition) {
   if (pressure_difference <= 0.0) return {};
   return orifice(coefficient, pressure_difference, transition);
 }
@@ -65,7 +67,7 @@ void validate(const ReliefValve& valve) {
   for (const auto& [argument, value] : positive) check(function, argument, value, Range::positive);
 }
 
-numerics::Slope free_opening(const ReliefValve& valve, double pressure) {
+numerics::ValueAndDerivative free_opening(const ReliefValve& valve, double pressure) {
   const double above = pressure - valve.opening_pressure;
   // Below the tank's pressure nothing flows and no force is there.
   const bool flows = pressure > valve.tank_pressure;
@@ -75,8 +77,8 @@ numerics::Slope free_opening(const ReliefValve& valve, double pressure) {
   return {opening, (1.0 - (flows ? opening * valve.flow_force_rate : 0.0)) / rate};
 }
 
-numerics::Slope resting_opening(const ReliefValve& valve, double pressure) {
-  const numerics::Slope opening = free_opening(valve, pressure);
+numerics::ValueAndDerivative resting_opening(const ReliefValve& valve, double pressure) {
+  const numerics::ValueAndDerivative opening = free_opening(valve, pressure);
   if (opening.value <= 0.0) return {};
   if (opening.value >= valve.largest_opening) return {valve.largest_opening, 0.0};
   return opening;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <boresight/numerics/slope.hpp>
+#include <boresight/numerics/value_and_derivative.hpp>
 
 /// Flows and pressures of the parts of a hydraulic circuit, each with its derivative, for systems
 /// of differential equations that give their Jacobian. The functions of the state check nothing:
@@ -15,7 +15,8 @@ namespace boresight::plant {
 /// between (regRoot of Modelica.Fluid), so a flow reversal needs no event. It is less than C
 /// sqrt(|dp|) by the fraction (dp_s/dp)^2/4 above dp_s, and by at most 0.2545 C sqrt(dp_s). C in
 /// m3/s per sqrt(Pa), at least 0; other consistent units are possible.
-numerics::Slope orifice(double coefficient, double pressure_difference, double transition);
+numerics::ValueAndDerivative orifice(double coefficient, double pressure_difference,
+                                     double transition);
 
 /// C = Cd A sqrt(2/rho) of an opening A (m2) with discharge coefficient Cd (0.6 to 0.7 for a sharp
 /// edge) in oil of density rho (kg/m3): Merritt, chapter 3.
@@ -24,7 +25,8 @@ double orifice_coefficient(double opening, double discharge_coefficient, double 
 
 /// The flow of an orifice in one direction only: none for dp <= 0, where its slope jumps by
 /// C/sqrt(dp_s); best an event.
-numerics::Slope check_valve(double coefficient, double pressure_difference, double transition);
+numerics::ValueAndDerivative check_valve(double coefficient, double pressure_difference,
+                                         double transition);
 
 /// dp/dt (Pa/s) per net flow into a volume V (m3) of oil of bulk modulus beta (Pa): beta/V,
 /// constant for as long as beta is; V/beta (p - p0) is what the oil has taken in since the pressure
@@ -54,10 +56,10 @@ void validate(const ReliefValve& valve);
 ///   (p - p_open)/(spring_rate + (p - p_tank) flow_force_rate)  for p >= p_tank,
 /// negative below the opening pressure, and its derivative. Where it passes 0 and largest_opening,
 /// the spool leaves or meets its stops: events.
-numerics::Slope free_opening(const ReliefValve& valve, double pressure);
+numerics::ValueAndDerivative free_opening(const ReliefValve& valve, double pressure);
 
 /// Where the spool rests: free_opening within 0..largest_opening. Its derivative is that of the
 /// outer side at either end.
-numerics::Slope resting_opening(const ReliefValve& valve, double pressure);
+numerics::ValueAndDerivative resting_opening(const ReliefValve& valve, double pressure);
 
 }  // namespace boresight::plant

@@ -97,9 +97,9 @@ struct AntennaStates {
 /// physics of the reference antenna.
 ///
 /// Inputs: valve_command (rad/s), then the wind forces of the structure (wind_torque). Observed:
-/// tachometer, motor_torque, encoder, `beam` as in to_state_space(AntennaPlant), then motor_rate,
-/// motor_angle, spool, friction_torque (offset included), gear_torque. For each motor k also
-/// inlet_pressure_k and outlet_pressure_k (Pa); for positive torque the inlet pressure is the
+/// tachometer, motor_torque, encoder, `boresight` as in to_state_space(AntennaPlant), then
+/// motor_rate, motor_angle, spool, friction_torque (offset included), gear_torque. For each motor k
+/// also inlet_pressure_k and outlet_pressure_k (Pa); for positive torque the inlet pressure is the
 /// higher. Valid at any speed, elevation and pressure; linearise() computes the small-signal model
 /// at a point.
 /// @throws InvalidInput for a parameter that is not finite or out of its range, naming it.

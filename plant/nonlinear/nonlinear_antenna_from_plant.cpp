@@ -19,10 +19,10 @@ OilCircuit make_oil(const Drive& linear, const HydraulicDrive& drive, const Driv
   oil.stiffness_2 = stiffness * drive.volume_1 / (drive.volume_1 + drive.volume_2);
   // A flow between the sides works on both stiffnesses, one out of a side on that side's half.
   const double null = details.null_leakage_share;
-  const double case_share = details.case_leakage_share;
-  oil.cross_leakage = linear.leakage_rate * std::max(0.0, 1.0 - null - case_share) / stiffness;
+  const double case_fraction = details.case_leakage_share;
+  oil.cross_leakage = linear.leakage_rate * std::max(0.0, 1.0 - null - case_fraction) / stiffness;
   oil.null_leakage = linear.leakage_rate * null / stiffness;
-  oil.case_leakage = 2.0 * linear.leakage_rate * case_share / stiffness;
+  oil.case_leakage = 2.0 * linear.leakage_rate * case_fraction / stiffness;
   oil.supply_torque = details.supply_pressure * torque;
   oil.return_torque = details.return_pressure * torque;
   oil.supply_droop = details.supply_droop * torque;
@@ -46,13 +46,14 @@ OilCircuit make_oil(const Drive& linear, const HydraulicDrive& drive, const Driv
 NonlinearAntenna make_nonlinear_antenna(const AntennaPlant& plant, const HydraulicDrive& drive,
                                         const DriveDetails& details) {
   const double null = details.null_leakage_share;
-  const double case_share = details.case_leakage_share;
-  if (std::isnan(null + case_share) || null < 0.0 || case_share < 0.0 || null + case_share > 1.0) {
-    throw InvalidInput(
-        fmt::format("make_nonlinear_antenna: expected leakage shares of at least 0 that sum to at "
-                    "most 1, found "
-                    "{} through the valve and {} to the case",
-                    null, case_share));
+  const double case_fraction = details.case_leakage_share;
+  if (std::isnan(null + case_fraction) || null < 0.0 || case_fraction < 0.0 ||
+      null + case_fraction > 1.0) {
+    throw InvalidInput(fmt::format(
+        "make_nonlinear_antenna: expected leakage fractions of at least 0 that sum to at "
+        "most 1, found "
+        "{} through the valve and {} to the case",
+        null, case_fraction));
   }
   NonlinearAntenna antenna;
   antenna.valve = {plant.drive.valve_corner, plant.drive.valve_damping, details.stroke_limit,

@@ -89,10 +89,10 @@ class SteadyMotion {
   }
 
   OperatingPoint solve() {
-    constexpr int most_iterations = 200;
+    constexpr int max_iterations = 200;
     Eigen::VectorXd residual = balance();
     double size = relative_size(residual);
-    while (size > 1e-13 && point_.iterations < most_iterations) {
+    while (size > 1e-13 && point_.iterations < max_iterations) {
       const Eigen::VectorXd step =
           numerics::linear_solve(jacobian(), -residual, "the balance of the steady motion");
       const OperatingPoint before = point_;

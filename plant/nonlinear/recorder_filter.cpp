@@ -52,12 +52,12 @@ StateSpace butterworth(const LowPass& filter) {
 Index steps_per_sample(const LowPass& filter, double sample_time, double highest) {
   if (filter.order == 0) return 1;
   const double steps = std::ceil(sample_time * std::max(20.0 * filter.corner, 10.0 * highest));
-  constexpr double most = 256.0;
-  if (!(steps <= most)) {
+  constexpr double maximum = 256.0;
+  if (!(steps <= maximum)) {
     throw InvalidInput(fmt::format(
         "recorder: expected a filter_frequency and lines that {:g} steps a sample follow, found "
         "{:g} Hz and {:.4g} Hz, which take {:g}",
-        most, filter.corner, highest, steps));
+        maximum, filter.corner, highest, steps));
   }
   return std::max<Index>(1, static_cast<Index>(steps));
 }

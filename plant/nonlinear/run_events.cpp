@@ -21,7 +21,7 @@ SampledEvent sampled(Index samples, double interval, const Holds& holds) {
     if (!event.first) event.first = interval * static_cast<double>(k);
     ++event.samples;
   }
-  event.share =
+  event.fraction =
       samples > 0 ? static_cast<double>(event.samples) / static_cast<double>(samples) : 0.0;
   return event;
 }

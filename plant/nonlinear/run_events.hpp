@@ -24,7 +24,7 @@ struct SlidingStart {
 struct SampledEvent {
   std::optional<double> first;  // s; none: never
   long long samples = 0;
-  double share = 0.0;  // of all samples
+  double fraction = 0.0;  // of all samples
 };
 
 /// Events in a run of the nonlinear antenna, detected at the samples of its true motion. Events

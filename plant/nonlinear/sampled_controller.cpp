@@ -5,17 +5,18 @@
 
 namespace boresight::plant {
 
-LinearSampledController::LinearSampledController(StateSpace law)
-    : LinearSampledController(std::move(law), Limits{}) {}
+LinearSampledController::LinearSampledController(StateSpace controller)
+    : LinearSampledController(std::move(controller), Limits{}) {}
 
-LinearSampledController::LinearSampledController(StateSpace law, Limits limits)
-    : law_(std::move(law)), limits_(std::move(limits)) {
-  validate(law_);
-  const Eigen::Index states = law_.a.rows();
-  const Eigen::Index outputs = law_.c.rows();
-  if (law_.sample_time == 0.0) {
+LinearSampledController::LinearSampledController(StateSpace controller, Limits limits)
+    : controller_(std::move(controller)), limits_(std::move(limits)) {
+  validate(controller_);
+  const Eigen::Index states = controller_.a.rows();
+  const Eigen::Index outputs = controller_.c.rows();
+  if (controller_.sample_time == 0.0) {
     throw InvalidInput(
-        "sampled controller: expected a sampled law, found a continuous one; sample() it first");
+        "sampled controller: expected a sampled controller, found a continuous one; sample() it "
+        "first");
   }
   if (limits_.largest_command.size() == 0) {
     limits_.largest_command =
@@ -43,11 +44,11 @@ LinearSampledController::LinearSampledController(StateSpace law, Limits limits)
 void LinearSampledController::update(double /*time*/,
                                      const Eigen::Ref<const Eigen::VectorXd>& measured,
                                      Eigen::Ref<Eigen::VectorXd> commands) {
-  wanted_.noalias() = law_.c * state_;
-  wanted_.noalias() += law_.d * measured;
+  wanted_.noalias() = controller_.c * state_;
+  wanted_.noalias() += controller_.d * measured;
   commands = wanted_.cwiseMin(limits_.largest_command).cwiseMax(-limits_.largest_command);
-  next_.noalias() = law_.a * state_;
-  next_.noalias() += law_.b * measured;
+  next_.noalias() = controller_.a * state_;
+  next_.noalias() += controller_.b * measured;
   wanted_ -= commands;
   next_.noalias() -= limits_.back_calculation * wanted_;
   state_.swap(next_);

@@ -47,18 +47,18 @@ class LinearSampledController final : public SampledController {
 
   /// @throws InvalidInput as `validate`, for a continuous controller, and for limits of the wrong
   /// size or not positive.
-  explicit LinearSampledController(StateSpace law);
-  LinearSampledController(StateSpace law, Limits limits);
+  explicit LinearSampledController(StateSpace controller);
+  LinearSampledController(StateSpace controller, Limits limits);
 
-  double sample_time() const override { return law_.sample_time; }
-  const std::vector<std::string>& inputs() const override { return law_.inputs; }
-  const std::vector<std::string>& outputs() const override { return law_.outputs; }
+  double sample_time() const override { return controller_.sample_time; }
+  const std::vector<std::string>& inputs() const override { return controller_.inputs; }
+  const std::vector<std::string>& outputs() const override { return controller_.outputs; }
   void restart() override { state_.setZero(); }
   void update(double time, const Eigen::Ref<const Eigen::VectorXd>& measured,
               Eigen::Ref<Eigen::VectorXd> commands) override;
 
  private:
-  StateSpace law_;
+  StateSpace controller_;
   Limits limits_;
   Eigen::VectorXd state_;
   Eigen::VectorXd next_;

@@ -18,7 +18,7 @@ using Eigen::Index;
 
 constexpr Index progress_every = 1024;
 // Of CVODES within an interval: beyond that the system is too stiff for its fixed-point iteration.
-constexpr long most_steps = 2000;
+constexpr long max_steps = 2000;
 // Other streams of the seed are the wind's.
 constexpr std::uint64_t first_sensor_stream = 100;
 
@@ -167,7 +167,7 @@ class CvodesIntegrator {
     OdeOptions options;
     options.method = OdeMethod::adams;
     options.iteration = OdeIteration::fixed_point;
-    options.most_steps = most_steps;
+    options.max_steps = max_steps;
     options.relative_tolerance = plan.relative_tolerance;
     options.absolute_tolerance = plan.absolute_tolerance;
     return options;

@@ -11,8 +11,8 @@
 namespace boresight::plant {
 namespace {
 
-constexpr double most_samples = 67108864.0;  // 2^26
-constexpr int deepest = 16;                  // a jump of the spectrum is placed to 2^-16 of a cell
+constexpr double max_samples = 67108864.0;  // 2^26
+constexpr int deepest = 16;                 // a jump of the spectrum is placed to 2^-16 of a cell
 constexpr double cell_tolerance = 1e-4;
 constexpr Eigen::Index values_per_cell = 64;
 constexpr Eigen::Index spare_values = 100000;  // for few cells with many jumps
@@ -23,7 +23,7 @@ Eigen::Index sample_count(double duration, double sample_time) {
         fmt::format("StationarySeries: expected a sample_time above 0, found {} s", sample_time));
   }
   const double samples = std::round(duration / sample_time);
-  if (!(samples >= 2.0) || !(samples <= most_samples)) {
+  if (!(samples >= 2.0) || !(samples <= max_samples)) {
     throw InvalidInput(
         fmt::format("StationarySeries: expected a duration of 2 to 2^26 samples of {} s, found "
                     "{} s",
@@ -50,11 +50,11 @@ Eigen::Index transform_length(Eigen::Index samples, const StationarySeriesOption
 // Integrals of a spectrum over cells by adaptive Simpson quadrature.
 class CellIntegral {
  public:
-  CellIntegral(const Spectrum& spectrum, Eigen::Index most_values)
-      : spectrum_(spectrum), most_values_(most_values) {}
+  CellIntegral(const Spectrum& spectrum, Eigen::Index max_values)
+      : spectrum_(spectrum), max_values_(max_values) {}
 
   double at(double frequency) {
-    if (++values_ > most_values_) {
+    if (++values_ > max_values_) {
       throw NumericalFailure(fmt::format(
           "StationarySeries: the spectrum varies too fast near {} Hz to be integrated between "
           "the lines: smooth it or lengthen the series",
@@ -86,7 +86,7 @@ class CellIntegral {
 
  private:
   const Spectrum& spectrum_;
-  Eigen::Index most_values_;
+  Eigen::Index max_values_;
   Eigen::Index values_ = 0;
 };
 

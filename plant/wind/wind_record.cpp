@@ -9,7 +9,7 @@
 namespace boresight::plant {
 namespace {
 
-constexpr Eigen::Index most_samples = Eigen::Index{1} << 26;
+constexpr Eigen::Index max_samples = Eigen::Index{1} << 26;
 
 // Torques about their mean, smoothed over the dish.
 Eigen::VectorXd smooth(const Eigen::VectorXd& torque, double sample_time, double mean_speed,
@@ -59,7 +59,7 @@ void validate(const WindRecord& record, std::string_view function) {
                                    record.sample_time));
   }
   const Eigen::Index samples = record.speed.size();
-  if (samples < 2 || samples > most_samples) {
+  if (samples < 2 || samples > max_samples) {
     throw InvalidInput(
         fmt::format("{}: expected a record of 2 to 2^26 samples, found {}", function, samples));
   }

@@ -40,7 +40,7 @@ void peak_and_h2_rows(AccuracySection& section, const nlohmann::json& cases) {
     if (name == "issue_cs1014") {
       const auto peak = control::peak_gain(sensitivity_of(entry.at("system")));
       const auto& verified = entry.at("verified");
-      section.printed(name, "peak of S", {peak.lower}, {printed_number(verified.at("hinf"))});
+      section.printed(name, "Ms", {peak.lower}, {printed_number(verified.at("hinf"))});
       section.number(name, "its frequency", peak.frequency, verified.at("freq"), 6, 1e-5);
       continue;
     }

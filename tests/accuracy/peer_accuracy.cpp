@@ -73,8 +73,7 @@ void rms_rows(const PeerRows& rows, int modes, const plant::StateSpace& noise) {
 void peak_rows(const PeerRows& rows, int modes, const plant::StateSpace& closed) {
   const auto modal = peer_modal_system(modes);
   for (const auto& [item, input, output, text] :
-       {std::tuple{"hinf_S", "d", "u", "peak of S"},
-        std::tuple{"hinf_W", "t", "y", "peak of t to y"}}) {
+       {std::tuple{"hinf_S", "d", "u", "Ms"}, std::tuple{"hinf_W", "t", "y", "peak of t to y"}}) {
     const auto peak = control::peak_gain(modal, input, output);
     rows.compare_refined(item, text, peak.lower, peak.frequency);
     if (modes > 50) continue;  // minutes

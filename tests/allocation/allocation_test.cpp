@@ -102,10 +102,10 @@ TEST(Allocations, NoneInTheStepsOfTheFastIntegrator) {
 TEST(Allocations, OfALoopEvaluationDoNotGrowWithTheGrid) {
   const auto allocations = [](int points_per_decade) {
     auto evaluator = reference::loop_evaluator(reference::antenna(), points_per_decade);
-    const control::ControlLaw law{control::LoopStructure::pi_with_lag(),
-                                  {0.05, 0.5, 3.0, 0.3, 0.01}};
-    evaluator.evaluate(law, true);
-    return allocations_of([&] { evaluator.evaluate(law, true); });
+    const control::Controller controller{control::LoopStructure::pi_with_lag(),
+                                         {0.05, 0.5, 3.0, 0.3, 0.01}};
+    evaluator.evaluate(controller, true);
+    return allocations_of([&] { evaluator.evaluate(controller, true); });
   };
   EXPECT_LE(allocations(1000), allocations(100) + 4);
 }

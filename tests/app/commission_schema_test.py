@@ -34,7 +34,7 @@ class CommissionSchema(unittest.TestCase):
 
     def test_open_position_loops_say_nothing_of_the_beam(self):
         for stage in self.report["stages"]:
-            beam = stage["expected"]["beam_rms_mdeg"]["nominal"]
+            beam = stage["expected"]["boresight_rms_mdeg"]["nominal"]
             self.assertEqual(beam is None, stage["position_loop"] == "open")
 
     def test_last_stage_has_the_gains_given(self):

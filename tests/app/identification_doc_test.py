@@ -40,7 +40,7 @@ def interval(estimate, scale):
 
 def estimates(found, truth):
     """Quantity, its value with interval, and its truth, by name."""
-    posterior = {row["name"]: row["posterior"] for row in found["reconciled"]["quantities"]}
+    posterior = {row["name"]: row["posterior"] for row in found["combined"]["quantities"]}
     law = truth["friction"]
     rows = [("inertia, kg m²", "inertia", 1.0, truth["reflected_inertia"]),
             ("oil stiffness, N m/rad", "oil stiffness", 1.0, truth["hydraulic_stiffness"]),
@@ -54,7 +54,7 @@ def estimates(found, truth):
               if not row["extrapolated"] and not row["tracking"]]
     for title, row in (("the lowest", tested[0]), ("a middle", tested[len(tested) // 2]),
                        ("the highest", tested[-1])):
-        out[f"friction, N m, at {title} tested speed"] = (interval(row["reconciled"], 1.0),
+        out[f"friction, N m, at {title} tested speed"] = (interval(row["combined"], 1.0),
                                                          friction(truth, row["rate_rad_per_s"]))
     return out
 
@@ -83,7 +83,7 @@ def paper_table(found, truth):
     true = truth["reflected_inertia"]
     reconciled = estimates(found, truth)["inertia, kg m²"][0]
     lines = [f"| the paper's procedure | J, kg m² | 95 % interval | off the truth ({number(true)}) | "
-             "off the reconciled |", "|---|---|---|---|---|"]
+             "off the combined |", "|---|---|---|---|---|"]
     for row in found["methods"]:
         if row["of_the_paper"]:
             value, lower, upper = interval(row["inertia"], 1.0)

@@ -36,10 +36,10 @@ TUNED = "tuned"
 # A number's key ends in one of these; only whole counts have none.
 UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "per_s", "rad_per_s",
          "rad_per_s_V", "rad_per_s_N_m", "rad_per_N_m", "m_per_s", "deg", "mdeg", "dB", "si")
-COUNTS = {"seed", "draws", "degrees_of_freedom", "starts", "starts_at_optimum", "starts_hunting", "evaluations",
+COUNTS = {"seed", "samples", "degrees_of_freedom", "starts", "starts_at_optimum", "starts_with_limit_cycle", "evaluations",
           "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples", "steps",
           "events", "cvodes_steps", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
-          "ensemble_members", "records", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_goals", "winds"}
+          "ensemble_members", "records", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_constraints", "winds"}
 
 # Of a state space, whose signals' units stand beside it (docs/benchmark-protocol.md).
 MATRICES = {"A", "B", "C", "D", "sample_time"}
@@ -154,7 +154,7 @@ class Schema(unittest.TestCase):
 
         check(lambda r: r.update(extra=1))
         check(lambda r: r["tuning"]["design"].update(extra_1=1.0))
-        check(lambda r: r["tuning"]["design"].pop("beam_rms_mdeg"))
+        check(lambda r: r["tuning"]["design"].pop("boresight_rms_mdeg"))
         check(lambda r: r["tuning"]["design"].update(beam_rms_mdeg="0.5"))
         check(lambda r: r.pop("tuning"))
         check(lambda r: r.update(tuned=report("tune", TUNED)["tuned"]))
@@ -162,7 +162,7 @@ class Schema(unittest.TestCase):
 
     def test_asks_for_no_section_of_interrupted_work(self):
         stopped = report("redesign")
-        for section in ("tuning", "choices", "matching"):
+        for section in ("tuning", "interpretations", "matching"):
             del stopped[section]
         self.assertFalse(VALIDATOR.is_valid(stopped))
         stopped["interrupted"] = True
@@ -234,10 +234,10 @@ class Numbers(unittest.TestCase):
     def test_agree_with_the_text(self):
         found, text = report("redesign"), run("redesign", BIG)[1]
         design, plant = found["tuning"]["design"], found["plant"]
-        self.assertIn(f"Rms {design['beam_rms_mdeg']:.4f} mdeg", text)
+        self.assertIn(f"Rms {design['boresight_rms_mdeg']:.4f} mdeg", text)
         self.assertRegex(text, rf"reflected inertia +{plant['reflected_inertia_kg_m2']:.6g} +kg\.m2")
         self.assertRegex(text, rf"gear ratio +{plant['gear_ratio_1']:.6g} +1\n")
-        mean = found["identification"]["reconciled"]
+        mean = found["identification"]["combined"]
         self.assertTrue(mean["contradictory"])
         self.assertIn(f"would be {mean['reflected_inertia_kg_m2']:.3f}", " ".join(text.split()))
         for budget in found["tuning"]["budgets"]:
@@ -280,7 +280,7 @@ class Campaign(unittest.TestCase):
             self.assertIn("tachometer", signals)
 
     def test_sets_every_method_beside_the_reconciled_inertia(self):
-        quantities = {q["name"]: q for q in self.found["reconciled"]["quantities"]}
+        quantities = {q["name"]: q for q in self.found["combined"]["quantities"]}
         inertia = quantities["inertia"]["posterior"]
         self.assertGreater(len(self.found["methods"]), 5)
         for method in self.found["methods"]:
@@ -294,7 +294,7 @@ class Campaign(unittest.TestCase):
                                    inertia["standard_uncertainty_si"]))
             self.assertTrue(method["assumes"])
             self.assertTrue(method["why"])
-        correlation = self.found["reconciled"]["correlation_1"]
+        correlation = self.found["combined"]["correlation_1"]
         self.assertEqual(len(correlation), len(quantities))
         for i, row in enumerate(correlation):
             self.assertEqual(row[i], 1)
@@ -315,11 +315,11 @@ class Campaign(unittest.TestCase):
         plots = self.found["plots"]
         friction = plots["friction"]
         count = len(friction["rate_rad_per_s"])
-        for key in ("reconciled_N_m", "reconciled_lower_95_N_m", "reconciled_upper_95_N_m"):
+        for key in ("combined_N_m", "combined_lower_95_N_m", "combined_upper_95_N_m"):
             self.assertEqual(len(friction[key]), count)
-        for lower, value, upper in zip(friction["reconciled_lower_95_N_m"],
-                                       friction["reconciled_N_m"],
-                                       friction["reconciled_upper_95_N_m"]):
+        for lower, value, upper in zip(friction["combined_lower_95_N_m"],
+                                       friction["combined_N_m"],
+                                       friction["combined_upper_95_N_m"]):
             self.assertTrue(lower < value < upper)
         self.assertEqual(len(plots["torque_spectra"]), 1)
         spectrum = plots["torque_spectra"][0]
@@ -346,7 +346,7 @@ class Campaign(unittest.TestCase):
 
     def test_agrees_with_the_text(self):
         text = run("identify", RECORDED)[1]
-        for q in self.found["reconciled"]["quantities"]:
+        for q in self.found["combined"]["quantities"]:
             scale = {"Pa": 1e-6, "s": 1e3}.get(q["posterior"]["unit"], 1)
             self.assertIn(f"{q['posterior']['value_si'] * scale:.4g}", text)
         for method in self.found["methods"]:
@@ -356,7 +356,7 @@ class Campaign(unittest.TestCase):
 class Tune(unittest.TestCase):
     def setUp(self):
         self.found = report("tune", TUNED)["tuned"]
-        self.laws = {(law["structure"], law["tuned_for"]): law for law in self.found["laws"]}
+        self.laws = {(law["structure"], law["tuned_for"]): law for law in self.found["controllers"]}
 
     def test_has_every_law(self):
         self.assertEqual(self.found["structures"], ["PI", "PI-0"])
@@ -367,34 +367,34 @@ class Tune(unittest.TestCase):
 
     def test_claims_only_laws_that_keep_their_goals(self):
         for (_, purpose), law in self.laws.items():
-            if purpose == "present" or not law["goals_met"]:
+            if purpose == "present" or not law["constraints_met"]:
                 continue
             self.assertTrue(law["design"]["verified"])
-            for cut, goal in zip(law["design"]["loop_breaks"], self.found["goals"]["loop_breaks"]):
+            for cut, goal in zip(law["design"]["loop_breaks"], self.found["constraints"]["loop_breaks"]):
                 self.assertLessEqual(cut["sensitivity_peak_1"],
                                      goal["sensitivity_peak_1"] * (1 + 1e-6))
             for member in law["ensemble"]["members"] if purpose == "robust" else ():
                 self.assertTrue(member["stable"])
-                self.assertLessEqual(member["worst_goal_ratio_1"], 1 + 1e-5)
-        self.assertTrue(self.laws["PI", "nominal"]["goals_met"])
+                self.assertLessEqual(member["worst_constraint_1"], 1 + 1e-5)
+        self.assertTrue(self.laws["PI", "nominal"]["constraints_met"])
         # More gains and fewer plants can only help.
-        rms = {key: law["beam_rms_mdeg"] for key, law in self.laws.items()}
+        rms = {key: law["boresight_rms_mdeg"] for key, law in self.laws.items()}
         self.assertLessEqual(rms["PI", "nominal"], rms["PI-0", "nominal"] * 1.001)
         self.assertLessEqual(rms["PI", "nominal"], rms["PI", "robust"] * 1.001)
 
     def test_reckons_losses_and_limits_from_the_rms(self):
         for law in self.laws.values():
-            if law["beam_rms_mdeg"] is None:
+            if law["boresight_rms_mdeg"] is None:
                 continue
             for band, result in zip(self.found["bands"], law["bands"]):
-                for rms, loss in (("beam_rms_mdeg", "mean_loss_two_axes_dB"),
-                                  ("climate_beam_rms_mdeg", "climate_mean_loss_two_axes_dB")):
+                for rms, loss in (("boresight_rms_mdeg", "mean_loss_two_axes_dB"),
+                                  ("climate_boresight_rms_mdeg", "climate_mean_loss_two_axes_dB")):
                     self.assertAlmostEqual(result[loss],
                                            24 * (law[rms] / band["beamwidth_mdeg"]) ** 2)
             for budget, result in zip(self.found["budgets"], law["budgets"]):
                 limit = result["wind_speed_limit_m_per_s"] or math.inf
                 self.assertEqual(limit >= law["design_wind_speed_m_per_s"],
-                                 law["beam_rms_mdeg"] <= budget["rms_mdeg"])
+                                 law["boresight_rms_mdeg"] <= budget["rms_mdeg"])
 
     def test_gives_gains_as_the_case_writes_them(self):
         law = self.laws["PI with a second lag", "present"]
@@ -405,7 +405,7 @@ class Tune(unittest.TestCase):
     def test_agrees_with_the_text(self):
         text = run("tune", TUNED)[1]
         for (structure, purpose), law in self.laws.items():
-            rms = law["beam_rms_mdeg"]
+            rms = law["boresight_rms_mdeg"]
             shown = "-" if rms is None else f"{rms:.4f}"
             self.assertRegex(text, rf"{re.escape(structure)} +{purpose} +10 +{re.escape(shown)} ")
             for gain in law["gains_as_written"]:
@@ -427,7 +427,7 @@ class Redesign(unittest.TestCase):
                 self.assertAlmostEqual(method["antenna_remainder"]["value_kg_m2"], value - side)
                 self.assertAlmostEqual(method["motor_to_load_ratio"]["value_1"],
                                        motors / (value - motors), delta=1e-6)
-                shares = [c["variance_share_1"] for c in inertia["contributions"]]
+                shares = [c["variance_fraction_1"] for c in inertia["contributions"]]
                 # Inputs below 1 % of the variance are left out.
                 self.assertTrue(0.9 < sum(shares) < 1 + 1e-9)
                 self.assertEqual(shares, sorted(shares, reverse=True))
@@ -436,8 +436,8 @@ class Redesign(unittest.TestCase):
 
     def test_claims_only_designs_that_keep_their_goals(self):
         for found in (report("redesign"),):
-            goals = [goal["sensitivity_peak_1"] for goal in found["tuning"]["sensitivity_goals"]]
-            effort = found["tuning"]["valve_effort_goal_rad_per_s"]
+            goals = [goal["sensitivity_peak_1"] for goal in found["tuning"]["sensitivity_constraints"]]
+            effort = found["tuning"]["control_effort_constraint_rad_per_s"]
             for design in designs(found):
                 self.assertTrue(design["feasible"])
                 self.assertTrue(design["verified"])
@@ -449,11 +449,11 @@ class Redesign(unittest.TestCase):
                     self.assertGreaterEqual(
                         cut["margins"]["phase_margin_deg"],
                         math.degrees(2 * math.asin(0.5 / cut["sensitivity_peak_1"])) - 1e-3)
-                self.assertLessEqual(design["valve_effort_rad_per_s"], effort * (1 + 1e-6))
+                self.assertLessEqual(design["control_effort_rad_per_s"], effort * (1 + 1e-6))
                 self.assertLess(design["verification"]["closed_loop_abscissa_per_s"], 0)
                 self.assertAlmostEqual(
                     math.hypot(design["wind_rms_mdeg"], design["noise_rms_mdeg"]),
-                    design["beam_rms_mdeg"], delta=1e-9)
+                    design["boresight_rms_mdeg"], delta=1e-9)
 
     def test_is_confirmed_by_a_second_integrator(self):
         for found in (report("redesign")["time_domain"], report("tune", TUNED)["time_domain"]):
@@ -462,24 +462,24 @@ class Redesign(unittest.TestCase):
     def test_takes_the_best_seed(self):
         tuning = report("redesign")["tuning"]
         self.assertEqual([seed["seed"] for seed in tuning["seeds"]], list(range(1, 9)))
-        best = min(seed["beam_rms_mdeg"] for seed in tuning["seeds"] if seed["verified"])
-        self.assertAlmostEqual(tuning["design"]["beam_rms_mdeg"], best, delta=1e-4 * best)
-        held = {model["model"]: model["beam_rms_mdeg"] for model in tuning["wind_models"]}
+        best = min(seed["boresight_rms_mdeg"] for seed in tuning["seeds"] if seed["verified"])
+        self.assertAlmostEqual(tuning["design"]["boresight_rms_mdeg"], best, delta=1e-4 * best)
+        held = {model["model"]: model["boresight_rms_mdeg"] for model in tuning["wind_models"]}
         self.assertAlmostEqual(held[tuning["wind_model"]], best, delta=1e-6)
-        self.assertGreater(tuning["encoder_held_rms_mdeg"], 0.0)
+        self.assertGreater(tuning["flexure_rms_mdeg"], 0.0)
         for budget in tuning["budgets"]:
             met = budget["wind_speed_limit_m_per_s"] >= tuning["design_wind_speed_m_per_s"]
             self.assertEqual(met, best <= budget["rms_mdeg"], budget["name"])
 
     def test_says_of_each_choice_what_it_would_do_or_why_not(self):
         found = report("redesign")
-        choices = found["choices"]
+        choices = found["interpretations"]
         self.assertEqual(choices[0]["name"], "reference")
         for choice in choices:
             self.assertNotEqual(choice["design"] is None, choice["impossible_because"] is None)
-        reference = choices[0]["design"]["beam_rms_mdeg"]
+        reference = choices[0]["design"]["boresight_rms_mdeg"]
         # Tuned for this plant alone.
-        self.assertLess(reference, 1.0001 * found["tuning"]["design"]["beam_rms_mdeg"])
+        self.assertLess(reference, 1.0001 * found["tuning"]["design"]["boresight_rms_mdeg"])
 
     def test_matches_over_all_disks_and_at_ratio_one(self):
         matching = report("redesign")["matching"]

@@ -31,21 +31,22 @@ using nlohmann::json;
 constexpr double step = 0.25;
 constexpr Eigen::Index steps = 160;
 
-design::AdjustableLoop loop_of(control::ControlLaw law, double disks, plant::WindModel model) {
+design::AdjustableLoop loop_of(control::Controller controller, double disks,
+                               plant::WindModel model) {
   design::TrackingProblem problem = reference::tracking_problem(disks);
   problem.wind.model = model;
-  const std::string name = law.structure.name();
-  return {name, std::move(law), std::move(problem), {}};
+  const std::string name = controller.structure.name();
+  return {name, std::move(controller), std::move(problem), {}};
 }
 
 // Every kind of block, wind model and gust spectrum.
 std::vector<design::AdjustableLoop> loops() {
-  control::ControlLaw all{control::LoopStructure::named("FULL+N+C"), {}};
+  control::Controller all{control::LoopStructure::named("FULL+N+C"), {}};
   const std::map<std::string, double> gains{
       {"kr", 0.2}, {"wi", 0.8}, {"wz", 30.0}, {"wp", 6.0},   {"wn", 15.0}, {"zz", 0.3}, {"zp", 0.7},
       {"kT", 0.1}, {"wd", 3.0}, {"kp", 0.2},  {"wip", 0.02}, {"cs", 5e-3}, {"wcs", 3.0}};
   for (const auto& gain : all.structure.gains()) all.gains.push_back(gains.at(gain.symbol));
-  const auto cautious = reference::cautious_law();
+  const auto cautious = reference::cautious_gains();
   std::vector<design::AdjustableLoop> list{loop_of(cautious, 24.0, plant::WindModel::coherence),
                                            loop_of(cautious, 0.0, plant::WindModel::vickery),
                                            loop_of(all, 24.0, plant::WindModel::coherence),
@@ -64,15 +65,15 @@ json row_of(const Eigen::MatrixXd& column) {
 
 // From the rate command, which enters as the negative of the tachometer's noise, to the tachometer.
 plant::StateSpace rate_loop(const design::TrackingProblem& problem,
-                            const control::ControlLaw& law) {
-  plant::StateSpace controller = control::rate_loop_law(law);
-  controller.inputs[0] = "rate_error_measured";
+                            const control::Controller& controller) {
+  plant::StateSpace state_space = control::rate_loop_controller(controller);
+  state_space.inputs[0] = "rate_error_measured";
   const plant::StateSpace sum =
       plant::static_gain((Eigen::MatrixXd(1, 2) << 1.0, -1.0).finished(),
                          {"tachometer", "rate_command"}, {"rate_error_measured"});
   return plant::connect({plant::subsystem(plant::to_state_space(problem.plant), {"valve_command"},
                                           {"tachometer", "motor_torque"}),
-                         sum, controller,
+                         sum, state_space,
                          control::delay_approximant(problem.delay, control::delay_order,
                                                     "valve_demand", "valve_command")},
                         {"rate_command"}, {"tachometer"});
@@ -93,19 +94,20 @@ json margins_json(const control::Margins& margins) {
 }
 
 json expected(const design::AdjustableLoop& loop) {
-  const design::Design design = design::assess(loop.problem, loop.law, loop.goals);
+  const design::Design design = design::assess(loop.problem, loop.controller, loop.goals);
   json result{{"stable", design.tuning.status != design::TuningStatus::unstable}};
   if (!result["stable"]) return result;
   const auto& stability = design.verification.stability;
-  result["beam"] = design.beam_rms;
+  result["beam"] = design.boresight_rms;
   result["wind"] = design.wind_rms;
   result["noise"] = design.noise_rms;
-  result["effort"] = design.valve_effort;
+  result["effort"] = design.control_effort;
   result["rate_loop_abscissa"] = stability.rate_loop_abscissa;
   result["closed_loop_abscissa"] = stability.closed_loop_abscissa;
   for (const auto& margins : design.margins) result["margins"].push_back(margins_json(margins));
-  result["position_step"] = step_response(reference::command_to_encoder(loop.problem, loop.law));
-  result["rate_step"] = step_response(rate_loop(loop.problem, loop.law));
+  result["position_step"] =
+      step_response(reference::command_to_encoder(loop.problem, loop.controller));
+  result["rate_step"] = step_response(rate_loop(loop.problem, loop.controller));
   return result;
 }
 
@@ -113,13 +115,13 @@ json expected(const design::AdjustableLoop& loop) {
 json setting(design::AdjustableLoop loop, std::mt19937_64& random) {
   std::uniform_real_distribution<double> exponent(-1.0, 1.0);
   const auto factor = [&](double largest) { return std::exp(largest * exponent(random)); };
-  for (double& gain : loop.law.gains) gain *= factor(1.3);
+  for (double& gain : loop.controller.gains) gain *= factor(1.3);
   auto& drive = loop.problem.plant.drive;
   drive.oil_stiffness *= factor(0.7);
   drive.leakage_rate *= factor(1.0);
   drive.viscous_friction *= factor(1.0);
   loop.problem.wind.mean_speed *= factor(0.7);
-  return {{"gains", loop.law.gains},
+  return {{"gains", loop.controller.gains},
           {"setting",
            {{"oil_stiffness", drive.oil_stiffness},
             {"leakage_rate", drive.leakage_rate},

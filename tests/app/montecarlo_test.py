@@ -85,18 +85,18 @@ class MonteCarlo(unittest.TestCase):
     def test_the_report_is_what_the_rows_say(self):
         rows = self.folder.rows()
         self.assertEqual([int(row["plant"]) for row in rows], list(range(2050)))
-        stable = [float(row["beam_rms_mdeg"]) for row in rows if row["standing"] == "stable"]
+        stable = [float(row["boresight_rms_mdeg"]) for row in rows if row["stability_verdict"] == "stable"]
         self.assertEqual(self.report["stability"]["stable"], len(stable))
-        lost = [row for row in rows if row["standing"] != "stable"]
+        lost = [row for row in rows if row["stability_verdict"] != "stable"]
         self.assertGreater(len(lost), 0)
         self.assertEqual([plant["index"] for plant in self.report["stability"]["not_stable_plants"]],
                          [int(row["plant"]) for row in lost])
-        self.assertTrue(all(row["beam_rms_mdeg"] == "" for row in lost))
-        rms = self.report["beam_rms_mdeg"]
+        self.assertTrue(all(row["boresight_rms_mdeg"] == "" for row in lost))
+        rms = self.report["boresight_rms_mdeg"]
         self.assertAlmostEqual(rms["mean"]["value"] / statistics.fmean(stable), 1.0, places=9)
         self.assertAlmostEqual(rms["standard_deviation"]["value"] / statistics.stdev(stable), 1.0,
                                places=6)
-        median = next(row for row in rms["quantiles"] if row["share_1"] == 0.5)
+        median = next(row for row in rms["quantiles"] if row["fraction_1"] == 0.5)
         self.assertAlmostEqual(median["value"], statistics.median(stable), places=9)
         effect = self.report["effect"]
         factor, cycle = max(1.0, effect["factor_1"]), effect["limit_cycle_amplitude_mdeg"]
@@ -105,7 +105,7 @@ class MonteCarlo(unittest.TestCase):
                       for value in stable) / len(rows)
             self.assertAlmostEqual(budget["probability_met_1"]["value"], met, places=9)
         worst = self.report["worst_plants"][0]
-        self.assertEqual(worst["beam_rms_mdeg"], max(stable))
+        self.assertEqual(worst["boresight_rms_mdeg"], max(stable))
         self.assertEqual(float(rows[worst["index"]]["oil_stiffness_1"]),
                          worst["inputs"]["oil_stiffness_1"])
 
@@ -119,11 +119,11 @@ class MonteCarlo(unittest.TestCase):
         self.assertEqual(self.folder.rows("few"), self.folder.rows()[:150])
 
     def test_a_law_of_a_report_is_held_to_the_last_bit(self):
-        law = self.report["law"]
+        law = self.report["controller"]
         names = [gain["name"].replace(" ", "_") for gain in law["gains"]]
         gains = {f"{name}_x": gain["value"] for name, gain in zip(names, law["gains"])}
-        tuned = {"tuned": {"laws": [{"structure": "PI", "tuned_for": "robust", "goals_met": True,
-                                     "beam_rms_mdeg": 1.0, "design": {"gains": gains}}]}}
+        tuned = {"tuned": {"controllers": [{"structure": "PI", "tuned_for": "robust", "constraints_met": True,
+                                     "boresight_rms_mdeg": 1.0, "design": {"gains": gains}}]}}
         (self.folder.path / "tuned.json").write_text(json.dumps(tuned))
         done = self.folder.run("--plants", "150", "--gains", "tuned.json", name="of_report")
         self.assertEqual(done.returncode, 2)  # --gains twice
@@ -140,8 +140,8 @@ class MonteCarlo(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         report = self.folder.report("retuned")
         VALIDATOR.validate(report)
-        self.assertGreater(report["retuned"]["laws_found"], 90)
-        self.assertGreater(report["retuned"]["price_of_one_law_1"]["least"], -1e-4)
+        self.assertGreater(report["retuned"]["controllers_found"], 90)
+        self.assertGreater(report["retuned"]["cost_of_fixed_gains_1"]["minimum"], -1e-4)
         self.assertIn("Fixed gains cost", done.stdout)
 
     def test_the_climate_has_a_distribution_of_its_own(self):
@@ -150,13 +150,13 @@ class MonteCarlo(unittest.TestCase):
         report = folder.report()
         VALIDATOR.validate(report)
         for row in folder.rows():
-            if row["standing"] == "stable":
-                self.assertGreater(float(row["climate_beam_rms_mdeg"]), 0.0)
+            if row["stability_verdict"] == "stable":
+                self.assertGreater(float(row["climate_boresight_rms_mdeg"]), 0.0)
         for band in report["bands"]:
             # Most of the time the wind is weaker than the design's.
             self.assertLess(band["climate_mean_loss_two_axes_dB"]["mean"]["value"],
                             band["mean_loss_two_axes_dB"]["mean"]["value"])
-        self.assertIsNone(self.report["climate_beam_rms_mdeg"])
+        self.assertIsNone(self.report["climate_boresight_rms_mdeg"])
 
     def test_what_cannot_be_done_is_refused(self):
         for arguments, message in (

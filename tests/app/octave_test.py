@@ -127,9 +127,9 @@ class Octave(unittest.TestCase):
         self.assertEqual(scores[0], scores[2])
         self.assertEqual(scores[1], scores[3])
         self.assertNotEqual(scores[0], scores[1])
-        law = next(law for law in report["tuned"]["laws"] if law["tuned_for"] == "robust")
-        rms = scores[0]["design_wind"]["beam_rms_mdeg"]
-        self.assertLess(abs(rms / law["design"]["beam_rms_mdeg"] - 1), 1e-6)
+        law = next(law for law in report["tuned"]["controllers"] if law["tuned_for"] == "robust")
+        rms = scores[0]["design_wind"]["boresight_rms_mdeg"]
+        self.assertLess(abs(rms / law["design"]["boresight_rms_mdeg"] - 1), 1e-6)
         for gain in law["gains_as_written"]:
             value = float(gain["value"].split()[0])
             self.assertLess(abs(seen["gain_" + gain["symbol"]][0] / value - 1), 1e-4, gain)

@@ -106,7 +106,7 @@ const layout = () => {
 const gainsOf = {
   redesign: ({ tuning }) => [tuning.design.gains],
   match: ({ matched }) => [matched.recommended_as_built.design.gains],
-  tune: ({ tuned }) => tuned.laws.map(({ design }) => design.gains),
+  tune: ({ tuned }) => tuned.controllers.map(({ design }) => design.gains),
 };
 
 for (const name of ["redesign", "match", "tune"]) {
@@ -251,7 +251,7 @@ test("sliders give the table's values", async () => {
   const table = made.match.json.matched.what_if;
   const axes = [table.flywheel_disks_1, table.leakage_rates_per_s, table.friction_slopes_N_m_s_per_rad, table.wind_speeds_m_per_s];
   const place = (structure, at) => at.reduce((sum, index, axis) => sum * axes[axis].length + index, structure);
-  assert.equal(table.beam_rms_mdeg.length, axes.reduce((all, axis) => all * axis.length, table.structures.length));
+  assert.equal(table.boresight_rms_mdeg.length, axes.reduce((all, axis) => all * axis.length, table.structures.length));
   const panel = page.locator(".what-if");
   const set = async (name, value) => panel.locator(`input[name=${name}]`).fill(String(value));
   const answer = () => panel.locator(".answer").getAttribute("data-rms");
@@ -259,7 +259,7 @@ test("sliders give the table's values", async () => {
   for (const [structure, at] of [[0, [0, 3, 1, 2]], [1, [8, 3, 1, 2]], [1, [4, 0, 0, 0]], [0, [8, 4, 5, 5]]]) {
     await panel.locator("select").selectOption({ index: structure });
     for (const [axis, name] of ["disks", "leakage", "friction", "wind"].entries()) await set(name, at[axis]);
-    const entry = table.beam_rms_mdeg[place(structure, at)];
+    const entry = table.boresight_rms_mdeg[place(structure, at)];
     assert.equal(await answer(), entry === null ? "" : String(entry));
     stable += entry === null ? 0 : 1;
   }
@@ -269,7 +269,7 @@ test("sliders give the table's values", async () => {
   for (const [name, value] of [["disks", 8], ["leakage", 3], ["friction", 1], ["wind", 2]]) await set(name, value);
   await panel.locator("input[name=leakage]").focus();
   for (let i = 0; i < 5; ++i) await page.keyboard.press("ArrowRight");
-  const [low, high] = [place(0, [8, 3, 1, 2]), place(0, [8, 4, 1, 2])].map((entry) => table.beam_rms_mdeg[entry]);
+  const [low, high] = [place(0, [8, 3, 1, 2]), place(0, [8, 4, 1, 2])].map((entry) => table.boresight_rms_mdeg[entry]);
   assert.ok(Math.abs(Number(await answer()) / Math.sqrt(low * high) - 1) < 1e-9);
   assert.match(await panel.locator(".answer").textContent(), /interpolated/);
   assert.deepEqual(troubles, []);
@@ -288,7 +288,7 @@ test("sliders over gains begin with the report's controller", async () => {
   const { design } = made.redesign.json.tuning;
   const rms = Number(await panel.locator(".answer").getAttribute("data-rms"));
   // The report's is by adaptive quadrature, the panel's on the program's frequency grid.
-  assert.ok(Math.abs(rms / design.beam_rms_mdeg - 1) < 1e-7, `${rms}, expected ${design.beam_rms_mdeg}`);
+  assert.ok(Math.abs(rms / design.boresight_rms_mdeg - 1) < 1e-7, `${rms}, expected ${design.boresight_rms_mdeg}`);
   assert.match(await panel.locator(".verdicts").textContent(), /\u2713/);
   assert.equal(await panel.locator("tbody tr").count(), 3);
   const shell = await panel.locator(".gains-text").textContent();
@@ -339,11 +339,11 @@ test("the table is the study's where they meet", () => {
   const places = matched.points.map((point) => table.flywheel_disks_1.indexOf(point.flywheel_disks_1));
   let compared = 0;
   matched.series.forEach((series, s) => {
-    series.laws.forEach(({ result }, p) => {
-      const rms = result?.beam_rms_mdeg ?? null;
+    series.controllers.forEach(({ result }, p) => {
+      const rms = result?.boresight_rms_mdeg ?? null;
       if (places[p] < 0 || rms === null) return;
       const entry = ((((s * table.flywheel_disks_1.length + places[p]) * table.leakage_rates_per_s.length + leakage) * table.friction_slopes_N_m_s_per_rad.length + friction) * table.wind_speeds_m_per_s.length) + wind;
-      assert.ok(Math.abs(table.beam_rms_mdeg[entry] / rms - 1) < 1e-4);
+      assert.ok(Math.abs(table.boresight_rms_mdeg[entry] / rms - 1) < 1e-4);
       assert.equal(table.states_1[entry], 2);
       ++compared;
     });

@@ -89,7 +89,7 @@ class Law(Near):
         figure = self.figures["tuned-rms-against-wind"]
         curve = series_of(figure, 0)
         self.assertNear(at(curve, self.found["tuning"]["design_wind_speed_m_per_s"]),
-                        self.judged(self.design["beam_rms_mdeg"]), 3e-3)
+                        self.judged(self.design["boresight_rms_mdeg"]), 3e-3)
         marks = {round(mark["y"], 4): mark["x"] for mark in figure["panels"][0]["marks"]}
         for budget in self.found["tuning"]["budgets"]:
             self.assertNear(marks[round(budget["rms_mdeg"], 4)], budget["wind_speed_limit_m_per_s"],
@@ -162,7 +162,7 @@ class Law(Near):
         band = series_of(self.figures["tuned-rms-against-wind"], 0)
         ensemble = self.found["tuning"]["ensemble"]
         speed = self.found["tuning"]["design_wind_speed_m_per_s"]
-        for bound, key in (("y_lower", "least"), ("y_upper", "largest")):
+        for bound, key in (("y_lower", "minimum"), ("y_upper", "largest")):
             value = at({"x": band["x"], "y": band[bound]}, speed)
             self.assertNear(value, self.judged(ensemble[f"{key}_beam_rms_mdeg"]), 5e-3)
 
@@ -183,14 +183,14 @@ class Law(Near):
             fractions = panel["series"][0]["x"]
             self.assertEqual(fractions, sorted(fractions, reverse=True))
             for x, one in zip(fractions, contributions):
-                self.assertNear(x, 100 * one["variance_share_1"], 1e-5)
+                self.assertNear(x, 100 * one["variance_fraction_1"], 1e-5)
 
     def test_matching_has_the_numbers_of_its_table(self):
         figure = self.figures["matching"]
         for series, drawn in zip(self.found["matching"], figure["panels"][0]["series"]):
             self.assertEqual(len(series["points"]), len(drawn["x"]))
             for point, x, y in zip(series["points"], drawn["x"], drawn["y"]):
-                self.assertNear(y, point["design"]["beam_rms_mdeg"], 1e-5)
+                self.assertNear(y, point["design"]["boresight_rms_mdeg"], 1e-5)
                 self.assertAlmostEqual(x, point["flywheel_disks_1"], 4)
 
 
@@ -201,22 +201,22 @@ class TimeDomain(Near):
 
     def test_limit_cycles_have_their_amplitude(self):
         panels = self.figures["time-domain-limit-cycle"]["panels"]
-        self.assertEqual(len(panels), len(self.found["hunting"]))
-        for panel, run in zip(panels, self.found["hunting"]):
+        self.assertEqual(len(panels), len(self.found["limit_cycles"]))
+        for panel, run in zip(panels, self.found["limit_cycles"]):
             values = panel["series"][0]["y"]
             amplitude = 0.5 * (max(values) - min(values))
-            self.assertLess(amplitude, run["beam_amplitude_mdeg"] * (1 + 1e-4))
-            self.assertGreater(amplitude, 0.5 * run["beam_amplitude_mdeg"])
+            self.assertLess(amplitude, run["boresight_amplitude_mdeg"] * (1 + 1e-4))
+            self.assertGreater(amplitude, 0.5 * run["boresight_amplitude_mdeg"])
 
     def test_reversals_reach_their_peak(self):
         boresight, encoder = self.figures["time-domain-reversal"]["panels"]
-        for panel, key in ((boresight, "beam_error_mdeg"), (encoder, "encoder_error_mdeg")):
+        for panel, key in ((boresight, "boresight_error_mdeg"), (encoder, "encoder_error_mdeg")):
             largest = max(abs(y) for y in panel["series"][0]["y"])
             self.assertNear(largest, self.found["reversal"][key], 1e-4)
 
     def test_error_in_wind_is_of_the_size_of_its_rms(self):
         errors = self.figures["time-domain-wind"]["panels"][0]["series"][-1]["y"]
-        rms = self.found["wind"]["beam_rms_mdeg"]
+        rms = self.found["wind"]["boresight_rms_mdeg"]
         self.assertGreater(max(abs(y) for y in errors), rms)
         self.assertLess(max(abs(y) for y in errors), 8 * rms)
 
@@ -225,7 +225,7 @@ class Studies(Near):
     def test_structures_are_the_tuned_laws(self):
         found = report("tune", TUNED)
         figure = figures_of(found)["structures"]
-        rms = {round(law["design"]["beam_rms_mdeg"], 4) for law in found["tuned"]["laws"]}
+        rms = {round(law["design"]["boresight_rms_mdeg"], 4) for law in found["tuned"]["controllers"]}
         bars = [y for series in figure["panels"][0]["series"] if "nonlinear" not in series["name"]
                 for y in series["y"]]
         self.assertGreater(len(bars), 2)
@@ -237,11 +237,11 @@ class Studies(Near):
         figure = figures_of(found)["match-rms"]
         for structure in found["matched"]["series"]:
             drawn = series_of(figure, 0, structure["structure"])
-            for law, y in zip(structure["laws"], drawn["y"]):
+            for law, y in zip(structure["controllers"], drawn["y"]):
                 if y is not None:
-                    self.assertNear(y, law["result"]["beam_rms_mdeg"], 1e-5)
+                    self.assertNear(y, law["result"]["boresight_rms_mdeg"], 1e-5)
             best = structure["best"]
-            self.assertTrue(any(abs(mark["y"] - best["beam_rms_mdeg"]) < 1e-5
+            self.assertTrue(any(abs(mark["y"] - best["boresight_rms_mdeg"]) < 1e-5
                                 for mark in figure["panels"][0]["marks"]))
 
     def test_front_and_chances_are_the_decision(self):
@@ -253,7 +253,7 @@ class Studies(Near):
         self.assertTrue(drawn["labels"])
         for label, x in zip(drawn["labels"], drawn["x"]):
             self.assertAlmostEqual(x, costs[label], 3)
-        shares = series_of(figures["chances"], 0)
+        shares = series_of(figures["probabilities"], 0)
         self.assertAlmostEqual(sum(shares["x"]), 1.0, 4)
         for x, low, high in zip(shares["x"], shares["x_lower"], shares["x_upper"]):
             self.assertTrue(low <= x <= high)

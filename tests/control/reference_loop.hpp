@@ -56,25 +56,27 @@ inline plant::ShapingFilter wind_filter(int order) {
 }
 
 /// A law anywhere within the bounds of the search.
-inline control::ControlLaw random_law(RandomNumbers& random, control::LoopStructure structure) {
-  control::ControlLaw law{structure, {}};
+inline control::Controller random_controller(RandomNumbers& random,
+                                             control::LoopStructure structure) {
+  control::Controller controller{structure, {}};
   for (const auto& description : control::gain_descriptions(structure)) {
-    law.gains.push_back(random.log_uniform(description.lower, description.upper));
+    controller.gains.push_back(random.log_uniform(description.lower, description.upper));
   }
-  return law;
+  return controller;
 }
 
 /// A law drawn from the whole bounds until it is stable with every sensitivity peak within a limit.
-inline control::ControlLaw sound_law(RandomNumbers& random, control::LoopEvaluator& evaluator,
-                                     control::LoopStructure structure, double highest_peak) {
+inline control::Controller sound_controller(RandomNumbers& random,
+                                            control::LoopEvaluator& evaluator,
+                                            control::LoopStructure structure, double highest_peak) {
   while (true) {
-    const control::ControlLaw law = random_law(random, structure);
-    const auto evaluation = evaluator.evaluate(law, false);
+    const control::Controller controller = random_controller(random, structure);
+    const auto evaluation = evaluator.evaluate(controller, false);
     bool sound = evaluation.stable();
     for (const auto loop_break : control::loop_breaks) {
       sound = sound && evaluation.highest_peak(loop_break) <= highest_peak;
     }
-    if (sound) return law;
+    if (sound) return controller;
   }
 }
 

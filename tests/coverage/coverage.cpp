@@ -116,7 +116,8 @@ starts of the grey box and {} draws.
 
 )",
                      arguments.first, arguments.first + arguments.campaigns - 1, arguments.seed,
-                     arguments.seed + arguments.seeds - 1, setting.further_starts, setting.draws) +
+                     arguments.seed + arguments.seeds - 1, setting.further_starts,
+                     setting.random_samples) +
          markdown(cases);
 }
 
@@ -133,11 +134,11 @@ bool holds(const std::vector<CoverageCase>& cases) {
   for (const auto& row : coverage_rows(cases)) {
     const bool asked = row.quantity == "inertia" || row.quantity == "oil stiffness" ||
                        row.quantity == "Coulomb level";
-    if (!asked || row.method != "reconciled" || (row.share() >= 0.9 && row.share() <= 0.99)) {
+    if (!asked || row.method != "combined" || (row.fraction() >= 0.9 && row.fraction() <= 0.99)) {
       continue;
     }
     fmt::print(stderr, "{}: covered in {:.1f} %, asked 90 to 99 %\n", row.quantity,
-               100.0 * row.share());
+               100.0 * row.fraction());
     all = false;
   }
   return all;

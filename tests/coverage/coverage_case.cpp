@@ -49,7 +49,7 @@ Identified identify(const identification::Campaign& campaign, const CoverageSett
       heard ? *found.slosh->bulk_modulus : numerics::normal_interval(1.3e9, 0.15 * 1.3e9);
   attempt("impulse and momentum", into, [&] {
     identification::ImpulseMomentumOptions options;
-    options.draws = setting.draws;
+    options.random_samples = setting.random_samples;
     found.impulse = identification::impulse_momentum(campaign, options);
   });
   attempt("hydraulic resonance", into, [&] {
@@ -58,7 +58,7 @@ Identified identify(const identification::Campaign& campaign, const CoverageSett
   attempt("grey box", into, [&] {
     identification::GreyBoxOptions options;
     options.further_starts = setting.further_starts;
-    options.draws = setting.draws;
+    options.random_samples = setting.random_samples;
     options.threads = 1;
     options.bulk_modulus_guessed = !heard;
     found.grey_box = identification::fit_grey_box(campaign, found.bulk_modulus, options);
@@ -66,10 +66,10 @@ Identified identify(const identification::Campaign& campaign, const CoverageSett
   return found;
 }
 
-void judge_grey_box(const RandomDrive& drive, const SimulatedCampaign& simulated,
-                    const std::optional<identification::GreyBoxResult>& result,
-                    CoverageCase& into) {
-  const char* const method = "reconciled";
+void evaluate_grey_box(const RandomDrive& drive, const SimulatedCampaign& simulated,
+                       const std::optional<identification::GreyBoxResult>& result,
+                       CoverageCase& into) {
+  const char* const method = "combined";
   const auto& curve = drive.antenna.friction.curve;
   const auto add = [&](const char* quantity, double truth) {
     std::optional<Interval> interval;
@@ -99,8 +99,8 @@ void judge_grey_box(const RandomDrive& drive, const SimulatedCampaign& simulated
   }
 }
 
-void judge_simple_methods(const RandomDrive& drive, const SimulatedCampaign& simulated,
-                          const Identified& found, CoverageCase& into) {
+void evaluate_simple_methods(const RandomDrive& drive, const SimulatedCampaign& simulated,
+                             const Identified& found, CoverageCase& into) {
   std::optional<Interval> inertia, leakage;
   if (found.resonance) {
     leakage = found.resonance->leakage_rate;
@@ -146,8 +146,8 @@ CoverageCase coverage_case(std::uint64_t seed, std::uint64_t number,
   Identified found;
   if (result.failures.empty()) found = identify(simulated.campaign, setting, result);
   if (simulated.speeds.empty()) simulated.speeds.assign(6, drive.rate_limit);
-  judge_grey_box(drive, simulated, found.grey_box, result);
-  judge_simple_methods(drive, simulated, found, result);
+  evaluate_grey_box(drive, simulated, found.grey_box, result);
+  evaluate_simple_methods(drive, simulated, found, result);
   return result;
 }
 

@@ -10,7 +10,7 @@
 namespace boresight::coverage {
 
 /// A number of a campaign by one method, beside the truth.
-struct Judged {
+struct Evaluated {
   std::string quantity;
   std::string method;
   double truth = 0.0;
@@ -21,7 +21,7 @@ struct Judged {
 struct CoverageCase {
   std::uint64_t seed = 0;
   std::uint64_t number = 0;  // of the seed's
-  std::vector<Judged> rows;
+  std::vector<Evaluated> rows;
   std::vector<std::string> failures;  // methods that gave nothing, and why
   double largest_departure = 0.0;     // of the grey box's parameters of drawings, in their spreads
 };
@@ -29,7 +29,7 @@ struct CoverageCase {
 /// The setting of identify that coverage is measured with: everything as the program's but this.
 struct CoverageSetting {
   int further_starts = 0;
-  int draws = 400;  // of every Monte Carlo
+  int random_samples = 400;  // of every Monte Carlo
 };
 
 /// Simulates campaign `number` of a seed and identifies it, by one thread.

@@ -21,7 +21,7 @@ bool covers(const numerics::Interval& interval, double truth) {
 }
 
 CoverageRow row_of(const std::vector<CoverageCase>& cases, std::size_t index) {
-  const Judged& first = cases.front().rows[index];
+  const Evaluated& first = cases.front().rows[index];
   CoverageRow row;
   row.quantity = first.quantity;
   row.method = first.method;
@@ -29,13 +29,13 @@ CoverageRow row_of(const std::vector<CoverageCase>& cases, std::size_t index) {
   std::vector<double> half_widths, biases, errors;
   double squares = 0.0;
   for (const auto& one : cases) {
-    const Judged& judged = one.rows[index];
-    if (!judged.interval) continue;
-    const auto& interval = *judged.interval;
+    const Evaluated& evaluated = one.rows[index];
+    if (!evaluated.interval) continue;
+    const auto& interval = *evaluated.interval;
     ++row.given;
-    if (covers(interval, judged.truth)) ++row.covered;
-    const double size = std::abs(judged.truth);
-    const double error = interval.value - judged.truth;
+    if (covers(interval, evaluated.truth)) ++row.covered;
+    const double size = std::abs(evaluated.truth);
+    const double error = interval.value - evaluated.truth;
     half_widths.push_back(0.5 * (interval.upper - interval.lower) / size);
     biases.push_back(error / size);
     errors.push_back(error / interval.standard_uncertainty);
@@ -50,8 +50,8 @@ CoverageRow row_of(const std::vector<CoverageCase>& cases, std::size_t index) {
 
 }  // namespace
 
-double CoverageRow::share_uncertainty() const {
-  return std::sqrt(share() * (1.0 - share()) / static_cast<double>(campaigns));
+double CoverageRow::fraction_uncertainty() const {
+  return std::sqrt(fraction() * (1.0 - fraction()) / static_cast<double>(campaigns));
 }
 
 std::vector<CoverageRow> coverage_rows(const std::vector<CoverageCase>& cases) {
@@ -68,9 +68,9 @@ std::string markdown(const std::vector<CoverageCase>& cases) {
     text += fmt::format(
         "| {} | {} | {} of {} | {:.1f} +- {:.1f} % | {:.2f} % | {:+.2f} % | "
         "{:+.2f}, {:.2f} |\n",
-        row.quantity, row.method, row.given, row.campaigns, 100.0 * row.share(),
-        100.0 * row.share_uncertainty(), 100.0 * row.half_width, 100.0 * row.bias, row.median_error,
-        row.rms_error);
+        row.quantity, row.method, row.given, row.campaigns, 100.0 * row.fraction(),
+        100.0 * row.fraction_uncertainty(), 100.0 * row.half_width, 100.0 * row.bias,
+        row.median_error, row.rms_error);
   }
   std::string failures;
   for (const auto& one : cases) {

@@ -18,9 +18,9 @@ struct CoverageRow {
   // Estimate less truth over the standard uncertainty.
   double median_error = 0.0;
   double rms_error = 0.0;
-  double share() const { return static_cast<double>(covered) / static_cast<double>(campaigns); }
+  double fraction() const { return static_cast<double>(covered) / static_cast<double>(campaigns); }
   /// Binomial standard uncertainty of the share.
-  double share_uncertainty() const;
+  double fraction_uncertainty() const;
 };
 
 /// By the rows of the first case; at least one.

@@ -62,9 +62,9 @@ plant::Structure random_structure(Draw& draw, double antenna_inertia, double hyd
   double fraction = draw.between(0.45, 0.7);
   double left = 1.0 - fraction;
   for (int i = 0; i < modes; ++i) {
-    const double share = i == 0 ? 0.75 : 0.25 / (modes - 1);
+    const double wind_part = i == 0 ? 0.75 : 0.25 / (modes - 1);
     structure.modes.push_back(
-        {frequency, draw.between(0.005, 0.02), fraction, share, i == 0 ? 1.0 : 0.0});
+        {frequency, draw.between(0.005, 0.02), fraction, wind_part, i == 0 ? 1.0 : 0.0});
     frequency *= draw.between(1.25, 1.5);
     fraction = left * draw.between(0.25, 0.5);
     left -= fraction;
@@ -126,10 +126,10 @@ RandomDrive random_drive(std::uint64_t seed, std::uint64_t number) {
   RandomDrive drive;
   const int motors = draw.whole(2, 4);
   drive.inertia = draw.logarithmic(0.3, 3.0);
-  const double motors_share = draw.between(0.45, 0.72);
-  const double gears_share = draw.between(0.06, 0.13);
-  drive.motor_inertia = motors_share * drive.inertia;
-  const double gear_inertia = gears_share * drive.inertia;
+  const double motors_fraction = draw.between(0.45, 0.72);
+  const double gears_fraction = draw.between(0.06, 0.13);
+  drive.motor_inertia = motors_fraction * drive.inertia;
+  const double gear_inertia = gears_fraction * drive.inertia;
   const double antenna_inertia = drive.inertia - drive.motor_inertia - gear_inertia;
 
   const double supply = draw.logarithmic(10e6, 21e6);

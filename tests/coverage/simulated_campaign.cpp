@@ -80,10 +80,10 @@ std::vector<DriveTest> campaign_tests(const RandomDrive& drive, std::vector<doub
                        2.5, false));
   tests.push_back(ramp("slow ramp", TestKind::slow_ramp, 0.053 * limit, 40.0, 1.0, true));
   constexpr double half_period = 8.0;
-  for (const double share : {0.025, 0.05, 0.1, 0.2, 0.4, 0.8}) {
-    const double speed = share * limit;
+  for (const double fraction : {0.025, 0.05, 0.1, 0.2, 0.4, 0.8}) {
+    const double speed = fraction * limit;
     speeds.push_back(speed);
-    tests.push_back({fmt::format("constant speed {:g}", share), TestKind::constant_speed, 0.005,
+    tests.push_back({fmt::format("constant speed {:g}", fraction), TestKind::constant_speed, 0.005,
                      4.0 * half_period + 2.0 * rest, true, [=](double t) {
                        const double into = t - rest;
                        if (into < 0.0 || into >= 4.0 * half_period) return 0.0;

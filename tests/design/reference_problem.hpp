@@ -18,15 +18,15 @@ inline design::TrackingProblem tracking_problem(double disks = 24.0) {
 }
 
 /// A cautious law, stable on the reference antenna.
-inline control::ControlLaw cautious_law() {
+inline control::Controller cautious_gains() {
   return {control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
 }
 
 /// From the position command, which enters as the negative of the encoder's noise does, to the
 /// encoder.
 inline plant::StateSpace command_to_encoder(const design::TrackingProblem& problem,
-                                            const control::ControlLaw& law) {
-  plant::StateSpace loop = control::closed_loop(problem.plant, law, problem.delay);
+                                            const control::Controller& controller) {
+  plant::StateSpace loop = control::closed_loop(problem.plant, controller, problem.delay);
   const auto input = plant::input_index(loop, "encoder_noise");
   const auto output = plant::output_index(loop, "encoder");
   loop.b = Eigen::MatrixXd(-loop.b.col(input));

@@ -97,16 +97,16 @@ class Examples(unittest.TestCase):
 
     def test_tuning_ends_where_the_program_ends(self):
         text = run("tune_drive")
-        self.assertAlmostEqual(figure(text, "beam rms at the sky"), 0.5099, delta=2e-4)
+        self.assertAlmostEqual(figure(text, "boresight rms at the sky"), 0.5099, delta=2e-4)
         self.assertAlmostEqual(figure(text, "kp (position gain)"), 10.257, delta=0.02)
-        peaks = [float(peak) for peak in re.findall(r"peak of S ([\d.]+)", text)]
+        peaks = [float(peak) for peak in re.findall(r"Ms ([\d.]+)", text)]
         self.assertEqual(len(peaks), 3)
         self.assertLessEqual(max(peaks), 2.0)
         self.assertIn("limited by: sensitivity peak at valve command", text)
 
     def test_own_controller_is_judged_by_two_independent_ways(self):
         text = run("own_controller")
-        rms = figure(text, "beam rms in 10 m/s")
+        rms = figure(text, "boresight rms in 10 m/s")
         # `boresight benchmark cases/dss14-70m/case.toml` of a file with these gains.
         self.assertAlmostEqual(rms, 0.5526, delta=2e-4)
         self.assertAlmostEqual(figure(text, "the same by Lyapunov equations"), rms, delta=0.005 * rms)

@@ -82,7 +82,7 @@ inline std::vector<std::pair<Eigen::Index, double>> truth_values() {
           {P::tachometer_zero, 0.02},    {P::tachometer_lag, 0.002}, {P::mode_damping, 0.012},
           {P::cross_leakage, 0.02},      {P::null_leakage, 0.002},   {P::case_leakage, 0.002},
           {P::valve_gain, 0.98},         {P::valve_null, 0.1},       {P::valve_lag, 0.005},
-          {P::valve_lap, 0.1},           {P::share(0), 4.0},         {P::frequency(0), 2.55}};
+          {P::valve_lap, 0.1},           {P::fraction(0), 4.0},      {P::frequency(0), 2.55}};
 }
 
 /// A record as a recorder with errors would write it, 50 samples a second; torque and rate noise
@@ -155,7 +155,7 @@ inline const numerics::Interval bulk = numerics::normal_interval(1.3e9, 6.5e6);
 inline GreyBoxOptions quick() {
   GreyBoxOptions options;
   options.further_starts = 0;
-  options.draws = 400;
+  options.random_samples = 400;
   options.threads = 1;
   return options;
 }

@@ -48,9 +48,9 @@ TEST_P(GaussRules, InterpolateByTheirBarycentricWeights) {
   for (const double x : {-0.97, 0.123, 0.6}) {
     double above = 0.0, below = 0.0;
     for (std::size_t i = 0; i < rule.node.size(); ++i) {
-      const double share = rule.barycentric[i] / (x - rule.node[i]);
-      above += share * std::pow(rule.node[i], n - 1);
-      below += share;
+      const double fraction = rule.barycentric[i] / (x - rule.node[i]);
+      above += fraction * std::pow(rule.node[i], n - 1);
+      below += fraction;
     }
     EXPECT_NEAR(above / below, std::pow(x, n - 1), 1e-12);
   }

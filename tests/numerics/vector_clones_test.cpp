@@ -42,9 +42,9 @@ ComplexPack ratios() {
 TEST(VectorClones, UseRegistersAsWideAsTheyMay) {
   const std::size_t widest = register_lanes();
   EXPECT_TRUE(widest == 2 || widest == 4 || widest == 8) << widest;
-  for (const std::size_t most : {2U, 4U, 8U}) {
-    const NarrowRegisters narrow(most);
-    EXPECT_EQ(register_lanes(), std::min(most, widest));
+  for (const std::size_t maximum : {2U, 4U, 8U}) {
+    const NarrowRegisters narrow(maximum);
+    EXPECT_EQ(register_lanes(), std::min(maximum, widest));
     ComplexPack sum;
     EXPECT_EQ(run_on_widest_lanes<Series>(ratios(), 3, sum), register_lanes());
   }

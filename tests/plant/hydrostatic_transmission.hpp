@@ -77,9 +77,9 @@ class HydrostaticTransmission : public plant::OdeSystem {
 
  private:
   struct Side {
-    numerics::Slope makeup;
-    numerics::Slope target;  // of the spool
-    numerics::Slope relief_per_opening;
+    numerics::ValueAndDerivative makeup;
+    numerics::ValueAndDerivative target;  // of the spool
+    numerics::ValueAndDerivative relief_per_opening;
   };
   Side side(Eigen::Index k, double pressure) const;
 

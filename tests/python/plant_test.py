@@ -75,7 +75,7 @@ def test_other_numbers_make_another_plant(antenna, plant):
 
 
 def test_closed_loop_is_plant_and_controller_connected(antenna, plant):
-    law = boresight.control_law("PI-0", {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1})
+    law = boresight.controller("PI-0", {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1})
     assert law.gains == {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1}
     closed = boresight.closed_loop(plant, law, antenna.controller_delay)
     assert closed.poles().real.max() == pytest.approx(-0.0938, abs=5e-5)  # tests/examples
@@ -93,7 +93,7 @@ def test_closed_loop_is_plant_and_controller_connected(antenna, plant):
 
 
 def test_sampled_law_is_the_continuous_one_at_low_frequencies():
-    law = boresight.control_law("PI", {"kr": 0.2, "wi": 0.5, "wp": 6.0, "kp": 6.0, "wip": 0.1})
+    law = boresight.controller("PI", {"kr": 0.2, "wi": 0.5, "wp": 6.0, "kp": 6.0, "wip": 0.1})
     sampled = law.sampled_controller(0.02)
     assert sampled.sample_time == 0.02
     w = np.array([0.1, 1.0, 3.0])

@@ -7,7 +7,7 @@ import boresight
 
 @pytest.fixture(scope="module")
 def controller():
-    return boresight.control_law("PI-0", {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1})
+    return boresight.controller("PI-0", {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1})
 
 
 @pytest.mark.filterwarnings("ignore::DeprecationWarning")

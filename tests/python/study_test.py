@@ -65,26 +65,26 @@ def tuning(antenna):
 def test_tuning_says_what_the_program_says(tuning, program):
     report = program("tune", "--structure", "PI")
     assert tuning.to_dict()["tuned"] == report["tuned"]
-    nominal, robust = [law for law in tuning.laws if law.tuned_for != "present"]
+    nominal, robust = [law for law in tuning.controllers if law.tuned_for != "present"]
     assert (nominal.tuned_for, robust.tuned_for) == ("nominal", "robust")
-    assert nominal.beam_rms / boresight.mdeg == pytest.approx(0.5099, abs=1e-4)
-    assert robust.beam_rms / boresight.mdeg == pytest.approx(0.6401, abs=1e-4)
-    assert robust.worst_beam_rms > robust.beam_rms
-    assert nominal.beam_rms == pytest.approx(math.hypot(nominal.wind_rms, nominal.noise_rms))
+    assert nominal.boresight_rms / boresight.mdeg == pytest.approx(0.5099, abs=1e-4)
+    assert robust.boresight_rms / boresight.mdeg == pytest.approx(0.6401, abs=1e-4)
+    assert robust.worst_boresight_rms > robust.boresight_rms
+    assert nominal.boresight_rms == pytest.approx(math.hypot(nominal.wind_rms, nominal.noise_rms))
 
 
 def test_best_law_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
     best = tuning.best
-    assert best.gains == best.law.gains and set(best.gains) == {"kr", "wi", "wp", "kp", "wip"}
-    assert best.tuned_for == "robust" and best.goals_met and best.verified and best.stable
+    assert best.gains == best.controller.gains and set(best.gains) == {"kr", "wi", "wp", "kp", "wip"}
+    assert best.tuned_for == "robust" and best.constraints_met and best.verified and best.stable
     assert tuning.shortfalls == []
     assert set(best.margins) == {"rate loop alone", "valve command", "position loop"}
     assert max(margins.sensitivity_peak for margins in best.margins.values()) <= 2.0 + 1e-6
-    closed = boresight.closed_loop(boresight.plant(antenna), best.law, antenna.controller_delay)
+    closed = boresight.closed_loop(boresight.plant(antenna), best.controller, antenna.controller_delay)
     assert closed.poles().real.max() < 0
     # The law's own state space, with the peak of |S| at the valve found by plain numpy.
     plant = boresight.plant(antenna).state_space
-    controller = best.law.state_space()
+    controller = best.controller.state_space()
     peak = best.margins["valve command"]
     w = np.append(np.logspace(-2, 2, 4000), peak.sensitivity_frequency)
     p, k = plant.frequency_response(w), controller.frequency_response(w)
@@ -103,7 +103,7 @@ def test_goals_can_be_changed_and_refused(antenna):
         boresight.tune(antenna, ["XYZ"])
     strict = boresight.tune(antenna, ["PI-0"], starts=1, goals={"sensitivity_peak": "1.02"})
     assert strict.best is None and strict.shortfalls
-    assert not any(law.goals_met for law in strict.laws)
+    assert not any(law.constraints_met for law in strict.controllers)
 
 
 def test_evaluation_says_what_the_program_says(antenna, program):
@@ -117,8 +117,8 @@ def test_evaluation_says_what_the_program_says(antenna, program):
     assert (as_it_is.name, as_it_is.path, as_it_is.cost) == ("as it is", "", 0)
     assert half.motor_to_load_ratio < as_it_is.motor_to_load_ratio
     assert half.structure == "PI-0"
-    assert half.law.structure == "PI without lag"
-    assert sum(chance for _, chance in evaluation.chances) == pytest.approx(1)
+    assert half.controller.structure == "PI without lag"
+    assert sum(chance for _, chance in evaluation.probabilities) == pytest.approx(1)
     assert evaluation.worth_its_cost.name in {as_it_is.name, half.name}
     with pytest.raises(boresight.InvalidInput, match="nowhere.toml"):
         boresight.evaluate(antenna, ["nowhere.toml"])
@@ -134,7 +134,7 @@ def test_example_recommends_what_it_tunes(case_path, tmp_path):
          str(SOURCE / "cases/dss14-70m/proposals/half-flywheels.toml")],
         capture_output=True, text=True, check=True,
         env={**os.environ, "PYTHONPATH": os.environ["BORESIGHT_MODULE_FOLDER"]}).stdout
-    best = re.search(r"^recommended: (<boresight.TunedLaw PI-0, robust, .*>) \{'kr': ", printed, re.M)
+    best = re.search(r"^recommended: (<boresight.TunedController PI-0, robust, .*>) \{'kr': ", printed, re.M)
     assert f"{best[1]} constraints met" in printed
     assert "PI-0: least rms with " in printed
     assert printed.count("least rms with probability") == 2
@@ -154,8 +154,8 @@ def test_matching_says_what_the_program_says(antenna, program):
     np.testing.assert_allclose(np.diff(matching.motor_inertia),
                                4 * 0.012358 * np.diff(matching.disks))
     [series] = matching.series
-    assert series.beam_rms.shape == matching.disks.shape
-    assert series.best == np.argmin(series.beam_rms)
+    assert series.boresight_rms.shape == matching.disks.shape
+    assert series.best == np.argmin(series.boresight_rms)
     assert np.all(series.peak_valve_command <= 2.0 + 1e-6)
     with pytest.raises(boresight.InvalidInput, match="sometimes"):
         boresight.match(antenna, time_domain="sometimes")

@@ -34,14 +34,14 @@ double sky_mdeg(double motor_rad) {
 }
 
 double rms(const TuningResult& result) {
-  return sky_mdeg(std::sqrt(result.evaluation.beam_variance()));
+  return sky_mdeg(std::sqrt(result.evaluation.boresight_variance()));
 }
 
-std::string gains(const control::ControlLaw& law) {
+std::string gains(const control::Controller& controller) {
   std::string text;
-  for (std::size_t k = 0; k < law.gains.size(); ++k) {
-    text += fmt::format("{}{} {:.9g}", k > 0 ? ", " : "", law.structure.gains()[k].symbol,
-                        law.gains[k]);
+  for (std::size_t k = 0; k < controller.gains.size(); ++k) {
+    text += fmt::format("{}{} {:.9g}", k > 0 ? ", " : "", controller.structure.gains()[k].symbol,
+                        controller.gains[k]);
   }
   return text;
 }
@@ -54,7 +54,7 @@ std::string peaks(const design::Verification& verification) {
 void write_nominal(std::ostream& out, double disks, unsigned threads) {
   out << fmt::format(
       "\n## {:g} disks\n\n"
-      "| structure | rms, mdeg | by wind | by noise | effort, rad/s | peaks of S, upper bounds | "
+      "| structure | rms, mdeg | by wind | by noise | effort, rad/s | Ms, upper bounds | "
       "abscissa, 1/s | Lyapunov apart | starts at it | seeds within 1 % | gains |\n"
       "|---|---|---|---|---|---|---|---|---|---|---|\n",
       disks);
@@ -79,7 +79,7 @@ void write_nominal(std::ostream& out, double disks, unsigned threads) {
                    disks, rms(one), rms(best));
       }
     }
-    const design::Verification verification = verify(problem, best.law, {});
+    const design::Verification verification = verify(problem, best.controller, {});
     if (!verification.passed) {
       fmt::print(stderr, "{} at {:g} disks: {}\n", name, disks, verification.failure);
     }
@@ -90,7 +90,7 @@ void write_nominal(std::ostream& out, double disks, unsigned threads) {
         sky_mdeg(std::sqrt(best.evaluation.noise_variance)),
         std::sqrt(best.evaluation.effort_variance), peaks(verification),
         verification.stability.closed_loop_abscissa, verification.rms_disagreement,
-        best.starts_at_optimum, many_starts, near, fresh_seeds, gains(best.law));
+        best.starts_at_optimum, many_starts, near, fresh_seeds, gains(best.controller));
     fmt::print(stderr, "{:g} {} {:.6f} {} {}\n", disks, name, rms(best), best.starts_at_optimum,
                near);
   }
@@ -98,7 +98,8 @@ void write_nominal(std::ostream& out, double disks, unsigned threads) {
 
 void write_robust(std::ostream& out, unsigned threads) {
   out << "\n## Robust designs, 24 disks\n\n"
-         "Tuned for the least nominal rms with every goal held on each of the 30 members of the "
+         "Tuned for the least nominal rms with every constraint met on each of the 30 members of "
+         "the "
          "reference ensemble (seed 1). `fails` is the nominal design of the table above on its "
          "worst member; the price is the rms of the robust design on the nominal plant over that "
          "of the nominal design. `largest` is the largest rms on any member, `members' peak` the "
@@ -113,24 +114,24 @@ void write_robust(std::ostream& out, unsigned threads) {
     options.threads = threads;
     options.starts = 60;
     const TuningResult nominal = tune(problem, structure, {}, options);
-    const auto fails = judge(problem, members, nominal.law, {}, threads);
+    const auto fails = evaluate(problem, members, nominal.controller, {}, threads);
     options.members = members;
     const TuningResult robust = tune(problem, structure, {}, options);
-    const auto holds = judge(problem, members, robust.law, {}, threads);
+    const auto holds = evaluate(problem, members, robust.controller, {}, threads);
     double peak = 0.0;
     int verified = 0;
     for (const auto& member : members) {
       design::TrackingProblem one = problem;
       one.plant = member.plant;
-      const auto verification = verify(one, robust.law, {});
+      const auto verification = verify(one, robust.controller, {});
       for (const auto& bracket : verification.peaks) peak = std::max(peak, bracket.upper);
       if (verification.passed) ++verified;
     }
     out << fmt::format(
         "| {} | {:.6f} | {} | {:.3f} | {:.6f} | {:.3f} | {:.6f} | {:.6f} | {} of {} | {} |\n", name,
-        rms(nominal), fails.members[fails.worst].name, fails.members[fails.worst].worst_goal_ratio,
+        rms(nominal), fails.members[fails.worst].name, fails.members[fails.worst].worst_constraint,
         rms(robust), rms(robust) / rms(nominal), holds.largest_rms / reference::mdeg, peak,
-        verified, members.size(), gains(robust.law));
+        verified, members.size(), gains(robust.controller));
     fmt::print(stderr, "robust {} {:.6f}\n", name, rms(robust));
   }
 }
@@ -139,9 +140,10 @@ void write(const char* path, unsigned threads) {
   std::ofstream out(path);
   out << "# The reference antenna's best loops\n\n"
          "Written by `boresight_reference_designs docs/reference-designs.md`; do not edit.\n\n"
-         "Elevation axis of the 70-m antenna, wind of 10 m/s (coherence model), beam rms at the "
+         "Elevation axis of the 70-m antenna, wind of 10 m/s (coherence model), boresight rms at "
+         "the "
          "sky. Goals: |S| at most 2 at three breaks (rate loop alone, valve command, position "
-         "loop), noise-driven valve effort at most 0.6 rad/s, stable with the position loop open "
+         "loop), noise-driven control effort at most 0.6 rad/s, stable with the position loop open "
          "and closed. Best of "
       << many_starts << " log-uniform starts over the whole bounds; "
       << "`seeds within 1 %`: of " << fresh_seeds

@@ -151,12 +151,12 @@ TEST(CheckSentences, SayWhatASoftPartUnderTheWindMeans) {
           .replace("inertia_fraction = { value = \"0.62\"", "inertia_fraction = { value = \"0.18\"")
           .text(),
       "case.toml");
-  EXPECT_THAT(said_of(antenna, "structural shares", "structure.mode[0].wind_fraction"),
+  EXPECT_THAT(said_of(antenna, "structural fractions", "structure.mode[0].wind_fraction"),
               AllOf(HasSubstr("a wind_fraction of 0.75 on an inertia fraction of 0.18 and a "
                               "beam_weight of 0.8 on an inertia fraction of 0.18"),
                     HasSubstr("mean wind of 10 m/s")));
   for (const Implausibility& one : audit_report(antenna).implausible) {
-    if (one.check != "structural shares") continue;
+    if (one.check != "structural fractions") continue;
     EXPECT_EQ(one.numbers.at(0).unit, "mdeg");
     EXPECT_NEAR(one.numbers[0].value,
                 std::abs(static_bending(make_problem(antenna))) * 180e3 / std::numbers::pi, 1e-9);

@@ -71,19 +71,19 @@ void expect_close(const nlohmann::json& one, const nlohmann::json& other, double
   }
 }
 
-TEST(Benchmark, ExportedControllerScoresAsTheLaw) {
+TEST(Benchmark, ExportedControllerScoresAsTheController) {
   const ScratchFolder folder;
   const std::string path = small_case(folder);
   for (const bool sampled : {false, true}) {
     const std::string file = folder.file(sampled ? "k.mat" : "k.json");
     std::vector<std::string> arguments{"--export-controller", file, "--json",
-                                       folder.file("law.json")};
+                                       folder.file("controller.json")};
     if (sampled) arguments.emplace_back("--sampled");
-    const auto law = benchmark(path, arguments);
-    ASSERT_EQ(law.exit_code, 0) << law.errors;
+    const auto controller = benchmark(path, arguments);
+    ASSERT_EQ(controller.exit_code, 0) << controller.errors;
     const auto given = benchmark(path, {"--controller", file, "--json", folder.file("given.json")});
     ASSERT_EQ(given.exit_code, 0) << given.errors;
-    const nlohmann::json one = nlohmann::json::parse(content_of(folder.file("law.json")));
+    const nlohmann::json one = nlohmann::json::parse(content_of(folder.file("controller.json")));
     const nlohmann::json other = nlohmann::json::parse(content_of(folder.file("given.json")));
     EXPECT_EQ(one.at("protocol_version"), 2);
     EXPECT_GT(one.at("score").at("torque_step").at("peak_mdeg_per_MN_m").get<double>(), 0.0);
@@ -185,7 +185,7 @@ TEST(Benchmark, IsTheSameForAnyNumberOfThreadsAndWritesItsCurves) {
   const auto one = benchmark(path, {"--json", "-", "--curves", folder.file("curves")});
   ASSERT_EQ(one.exit_code, 0) << one.errors;
   const nlohmann::json sheet = nlohmann::json::parse(one.output);
-  EXPECT_EQ(sheet.at("score").at("nonlinear").at("hunting").size(), 2U);
+  EXPECT_EQ(sheet.at("score").at("nonlinear").at("limit_cycles").size(), 2U);
   EXPECT_TRUE(assumes(sheet, "simulation.bristle_stiffness"));
   EXPECT_FALSE(assumes(sheet, "recorder.sample_rate"));
   const auto two =
@@ -204,12 +204,13 @@ TEST(Benchmark, ScoresTheAntennaThatRecordsShow) {
   const design::Mission mission = mission_of(stated);
   io::DesignedAntenna designed{stated, mission, {}, design::PlantDistribution::of_ranges(mission),
                                {},     false};
-  const auto controller = design::controller_of(mission.present_controllers.front().law, "PI", 0.0);
+  const auto controller =
+      design::controller_of(mission.present_controllers.front().controller, "PI", 0.0);
   auto as_stated = app::benchmark(designed, controller, {}, {});
   designed.antenna.drive->leakage_rate.value *= 2.0;
   designed.mission = mission_of(designed.antenna);
   designed.ensemble.source = design::EnsembleSource::records;
-  designed.ensemble.members = {{"draw 1", make_plant(designed.antenna)}};
+  designed.ensemble.members = {{"sample 1", make_plant(designed.antenna)}};
   designed.from_records = true;
   const auto recorded = app::benchmark(designed, controller, {}, {});
   EXPECT_NE(recorded.score.abscissa, as_stated.score.abscissa);

@@ -43,7 +43,7 @@ const std::vector<Mistake>& mistakes() {
        "at least the Coulomb torque", "less"},
       {"LeakageSharesBeyondOne", "case_leakage_share = { value = \"0.1\"",
        "case_leakage_share = ^{ value = \"0.95\"", "simulation.case_leakage_share",
-       "leakage shares that sum to at most 1", "more"},
+       "leakage fractions that sum to at most 1", "more"},
       {"MissingKey", "[controller]\ndelay", "^[controller]\n# delay", "controller.delay",
        "a time (such as s, ms)", "nothing: key is missing"},
       {"LinesWithoutADensity", "[oil]\ndensity", "^[oil]\n# density", "oil.density",

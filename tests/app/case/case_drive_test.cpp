@@ -174,7 +174,7 @@ TEST(CaseDrive, FindsByTheRestWhatFewEngineersKnow) {
   EXPECT_DOUBLE_EQ(antenna.sensors->tachometer_frequency.value,
                    10.0 * antenna.structure->locked_rotor_frequency.value);
   EXPECT_DOUBLE_EQ(antenna.sensors->encoder_noise.value, 2.0 * pi / 1048576.0 / std::sqrt(12.0));
-  EXPECT_DOUBLE_EQ(antenna.goals->valve_effort.value, 0.6 / 125.0 * motors_at_slew);
+  EXPECT_DOUBLE_EQ(antenna.goals->control_effort.value, 0.6 / 125.0 * motors_at_slew);
   const auto assumed = assumed_inputs(antenna);
   for (const auto* key :
        {"drive.viscous_friction", "sensors.tachometer_noise", "sensors.tachometer_frequency",

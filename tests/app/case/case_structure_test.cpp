@@ -13,7 +13,7 @@
 #include <boresight/app/audit/audit_report.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
-#include <boresight/app/redesign/choices.hpp>
+#include <boresight/app/redesign/interpretations.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/io/case/antenna_of.hpp>
@@ -153,11 +153,11 @@ TEST(MotorsHeldCase, NamesTheOtherAntennaOfTheSameFrequencies) {
 TEST(MotorsHeldCase, LetsTheOtherAntennaBeAChoiceOfTheRedesign) {
   const io::Case antenna = parsed(of_one_mode("4 Hz", "0.2"));
   const auto held = plant::motors_held_modes(make_plant(antenna).structure);
-  const auto choices = plant_choices(antenna);
-  const auto other = std::ranges::find_if(choices, [](const PlantChoice& choice) {
+  const auto interpretations = plant_interpretations(antenna);
+  const auto other = std::ranges::find_if(interpretations, [](const PlantInterpretation& choice) {
     return choice.result.name.starts_with("antenna of gear spring ");
   });
-  ASSERT_NE(other, choices.end());
+  ASSERT_NE(other, interpretations.end());
   const auto structure = linear_plant(other->antenna.value()).structure;
   EXPECT_GT(structure.gear_stiffness, 1.5 * make_plant(antenna).structure.gear_stiffness);
   EXPECT_EQ(other->result.name,

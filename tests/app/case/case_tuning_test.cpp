@@ -207,8 +207,8 @@ TEST(CaseTuning, WeighsTheSitesWind) {
   }
   EXPECT_NEAR(sum, 1.0, 1e-12);
   EXPECT_NEAR(at_12, 0.1, 1e-9);
-  EXPECT_NEAR(design::share_of_time(antenna.wind->climate_parts, 20.0), 1.0, 1e-12);
-  EXPECT_NEAR(design::share_of_time(antenna.wind->climate_parts, 10.0),
+  EXPECT_NEAR(design::fraction_of_time(antenna.wind->climate_parts, 20.0), 1.0, 1e-12);
+  EXPECT_NEAR(design::fraction_of_time(antenna.wind->climate_parts, 10.0),
               0.9 * std::expm1(-4.0) / std::expm1(-16.0), 1e-12);
   ASSERT_TRUE(antenna.wind->climate_torque_coefficient.has_value());
   EXPECT_NEAR(*antenna.wind->climate_torque_coefficient, std::sqrt(0.75 * 0.01 + 0.25 * 0.04),
@@ -221,7 +221,7 @@ TEST(CaseTuning, TakesCasesWithoutAnyOfIt) {
   EXPECT_TRUE(antenna.wind->climate.empty());
   EXPECT_TRUE(antenna.tuning->structures.empty());
   EXPECT_FALSE(antenna.present_gains || antenna.goals->gain_margin || antenna.goals->bandwidth);
-  EXPECT_EQ(antenna.goals->soft_goal, io::SoftGoalKind::nominal);
+  EXPECT_EQ(antenna.goals->objective, io::ObjectiveKind::nominal);
 }
 
 TEST(CaseTuning, RefusesStructuresThatAreNone) {
@@ -259,10 +259,12 @@ TEST(CaseTuning, RefusesEmptyRangesAndClimates) {
   EXPECT_THAT(refusal("upper = \"105 %\"", "upper = \"90 %\""),
               HasSubstr("ensemble.structure_frequency.upper: expected at least the lower end "
                         "'95 %', found '90 %'"));
-  EXPECT_THAT(refusal("speed = \"12 m/s\"", "speed = \"12 m/s\"\nscale = \"3 m/s\""),
-              HasSubstr("wind.climate[1].speed: expected either a speed, or of a Weibull law scale "
-                        "and shape, or its mean, exceeded and exceeded_share, found speed and "
-                        "scale"));
+  EXPECT_THAT(
+      refusal("speed = \"12 m/s\"", "speed = \"12 m/s\"\nscale = \"3 m/s\""),
+      HasSubstr(
+          "wind.climate[1].speed: expected either a speed, or of a Weibull distribution scale "
+          "and shape, or its mean, exceeded and exceeded_share, found speed and "
+          "scale"));
   EXPECT_THAT(refusal("shape = \"2\"\n", ""),
               HasSubstr("wind.climate[0].shape: expected scale, shape and highest together"));
   EXPECT_THAT(refusal("torque_coefficient = \"0.20\"", "azimuth = \"10 deg\""),
@@ -290,11 +292,11 @@ TEST(CaseGoals, ReadsGoalsAtEachBreakAndOfTheEnsemble) {
   const io::GoalsEntry& goals = *antenna.goals;
   EXPECT_FALSE(goals.peak_at_break[0].has_value());
   ASSERT_TRUE(goals.peak_at_break[1] && goals.gain_margin && goals.phase_margin &&
-              goals.bandwidth && goals.crest_factor && goals.beam_rms);
+              goals.bandwidth && goals.crest_factor && goals.boresight_rms);
   EXPECT_DOUBLE_EQ(goals.peak_at_break[1]->value, 1.8);
   EXPECT_DOUBLE_EQ(goals.phase_margin->value, std::numbers::pi / 6.0);
   EXPECT_DOUBLE_EQ(goals.bandwidth->value, 0.05 * hertz);
-  EXPECT_EQ(goals.soft_goal, io::SoftGoalKind::quantile);
+  EXPECT_EQ(goals.objective, io::ObjectiveKind::quantile);
   EXPECT_DOUBLE_EQ(goals.quantile, 0.9);
 }
 
@@ -311,8 +313,8 @@ TEST(CaseGoals, AreChangedByKeyAndValue) {
   io::change_goals(goals,
                    {"sensitivity_peak=1.7", "valve_effort=0.4 rad/s", "soft_goal=worst_case"});
   EXPECT_DOUBLE_EQ(goals.sensitivity_peak.value, 1.7);
-  EXPECT_DOUBLE_EQ(goals.valve_effort.value, 0.4);
-  EXPECT_EQ(goals.soft_goal, io::SoftGoalKind::worst_case);
+  EXPECT_DOUBLE_EQ(goals.control_effort.value, 0.4);
+  EXPECT_EQ(goals.objective, io::ObjectiveKind::worst_case);
   const auto message = [&](const std::string& change) {
     try {
       io::change_goals(goals, {change});

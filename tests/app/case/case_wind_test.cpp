@@ -310,7 +310,7 @@ TEST(CaseWind, TracksInAMeasuredWind) {
   const auto loops = design::tune(make_problem(antenna), io::loop_structure(antenna, "PI"),
                                   make_goals(antenna), {});
   const auto run =
-      section_of(run_position_test(antenna, "tracking", loops.law, 1, {}), antenna, "tuned");
+      section_of(run_position_test(antenna, "tracking", loops.controller, 1, {}), antenna, "tuned");
   EXPECT_NEAR(run.duration, 66.0, 0.01);
   EXPECT_THAT(run.description, HasSubstr("wind.csv, mean 8"));
   // The torque in the record is 1/2 rho V^2 A D C at the motor, sample for sample.
@@ -326,12 +326,12 @@ TEST(CaseWind, TracksInAMeasuredWind) {
     EXPECT_NEAR(torque.values[k], expected, 1e-4 * std::abs(expected)) << i;
   }
   ASSERT_TRUE(run.predicted_rms);
-  ASSERT_TRUE(run.beam_rms);
+  ASSERT_TRUE(run.boresight_rms);
   // In 8 m/s: gusts go with V, torque with V gusts, and all of it to lower frequencies.
   const auto problem = make_problem(antenna);
   const auto tuned =
       design::tune(problem, control::LoopStructure::pi_with_lag(), make_goals(antenna), {});
-  const double at_design = std::sqrt(tuned.evaluation.beam_variance()) / gear;
+  const double at_design = std::sqrt(tuned.evaluation.boresight_variance()) / gear;
   EXPECT_LT(*run.predicted_rms, std::pow(0.8, 1.5) * at_design);
   EXPECT_GT(*run.predicted_rms, std::pow(0.8, 4.0) * at_design);
 }

@@ -95,7 +95,7 @@ TEST(Commission, TunesWhereNoGainsAreGiven) {
 }
 
 // Friction that breaks away at more than twice what slides by hunts; that of the case does not.
-TEST(Commission, SaysThatALawHuntsOnTheNonlinearAntenna) {
+TEST(Commission, SaysThatAControllerLimitCyclesOnTheNonlinearAntenna) {
   const ScratchFolder folder;
   const std::vector<std::string> gains{"kr=0.043", "wi=0.3 rad/s", "wp=2.5 rad/s", "kp=30 1/s",
                                        "wip=0.2 rad/s"};
@@ -109,9 +109,9 @@ TEST(Commission, SaysThatALawHuntsOnTheNonlinearAntenna) {
               .replace("breakaway = { value = \"16.83 N.m\"", "breakaway = { value = \"55 N.m\"")
               .text() +
           "\n[ensemble]\ndraws = 1\n");
-  const ProgramResult hunting = commission(sticky, gains, structure);
-  EXPECT_EQ(hunting.exit_code, 0) << hunting.errors;
-  EXPECT_THAT(hunting.output,
+  const ProgramResult limit_cycles = commission(sticky, gains, structure);
+  EXPECT_EQ(limit_cycles.exit_code, 0) << limit_cycles.errors;
+  EXPECT_THAT(limit_cycles.output,
               ContainsRegex("On the nonlinear antenna PI has a limit cycle of \\+-[1-9]"));
 }
 
@@ -142,7 +142,7 @@ TEST(Commission, RefusesWhatItCannotUse) {
   wild[0] = "kr=60";
   const ProgramResult result = commission(path, wild);
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_THAT(result.errors, HasSubstr("unstable on a plant that may be the true one"));
+  EXPECT_THAT(result.errors, HasSubstr("unstable on an ensemble member"));
 }
 
 // A plan that there is none of does not take the comparison with it.

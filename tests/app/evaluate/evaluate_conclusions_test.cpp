@@ -66,10 +66,10 @@ TEST(EvaluateConclusions, DoNotBlameProposalsForASlewRateOutOfReach) {
 Candidate moving(const std::string& name, double acceleration, double reversal) {
   Candidate candidate = candidate_of(name, 1.2);
   candidate.figures->slew.emplace().reachable_acceleration = acceleration * degree;
-  CandidateLaw law;
-  law.design.tuning.status = design::TuningStatus::optimal;
-  law.time_domain.emplace().reversal.emplace().beam_error = reversal * millidegree;
-  candidate.laws = {law};
+  CandidateController controller;
+  controller.design.tuning.status = design::TuningStatus::optimal;
+  controller.time_domain.emplace().reversal.emplace().boresight_error = reversal * millidegree;
+  candidate.controllers = {controller};
   candidate.chosen = 0U;
   return candidate;
 }
@@ -85,27 +85,27 @@ TEST(EvaluateConclusions, SayWhatAProposalDoesToReversalsAndAcceleration) {
 
 // kr, wi, wp, kp, wip.
 Candidate with_gains(Candidate candidate, const std::vector<double>& gains) {
-  CandidateLaw& law = candidate.laws.front();
-  law.structure = "PI";
-  law.design.tuning.law = {control::LoopStructure::named("PI"), gains};
+  CandidateController& controller = candidate.controllers.front();
+  controller.structure = "PI";
+  controller.design.tuning.controller = {control::LoopStructure::named("PI"), gains};
   return candidate;
 }
 
-TEST(EvaluateConclusions, TellLawsOfOneStructureThatAreOfAnotherFamily) {
-  const auto law = [](const std::vector<double>& gains) {
-    return with_gains(moving("a", 0.1, 5.0), gains).laws.front();
+TEST(EvaluateConclusions, TellControllersOfOneStructureThatAreOfAnotherFamily) {
+  const auto controller = [](const std::vector<double>& gains) {
+    return with_gains(moving("a", 0.1, 5.0), gains).controllers.front();
   };
-  const CandidateLaw own = law({0.133, 0.255, 3.28, 30.0, 0.262});
-  const CandidateLaw bare = law({0.126, 30.0, 12.4, 3.11, 0.324});
+  const CandidateController own = controller({0.133, 0.255, 3.28, 30.0, 0.262});
+  const CandidateController bare = controller({0.126, 30.0, 12.4, 3.11, 0.324});
   EXPECT_THAT(other_family(bare, own), testing::ElementsAre(1U, 3U));
   EXPECT_THAT(other_family(own, bare), testing::ElementsAre(1U, 3U));
-  EXPECT_THAT(other_family(own, law({0.133, 0.255, 3.28, 6.1, 1.3})), testing::IsEmpty());
-  CandidateLaw other = bare;
+  EXPECT_THAT(other_family(own, controller({0.133, 0.255, 3.28, 6.1, 1.3})), testing::IsEmpty());
+  CandidateController other = bare;
   other.structure = "DPF";
   EXPECT_THAT(other_family(other, own), testing::IsEmpty());
 }
 
-TEST(EvaluateConclusions, SayWhatOfAReversalMayBeTheLaws) {
+TEST(EvaluateConclusions, SayWhatOfAReversalMayBeTheControllers) {
   const std::vector<double> slow{0.133, 0.255, 3.28, 30.0, 0.262};
   const std::vector<double> fast{0.126, 30.0, 12.4, 3.11, 0.324};
   const auto base = with_gains(moving("as it is", 0.1, 2.68), slow);
@@ -121,15 +121,15 @@ TEST(EvaluateConclusions, SayWhatOfAReversalMayBeTheLaws) {
   // Only the rms is told of it.
   auto level = with_gains(moving("no flywheels", 0.1, 2.6), fast);
   EXPECT_THAT(concluded({base, level}), Not(HasSubstr("different kind")));
-  auto& cycle = level.laws.front().time_domain->hunting.emplace_back();
+  auto& cycle = level.controllers.front().time_domain->limit_cycles.emplace_back();
   cycle.limit_cycle = true;
-  cycle.beam_amplitude = 0.2 * millidegree;
+  cycle.boresight_amplitude = 0.2 * millidegree;
   EXPECT_THAT(concluded({base, level}), HasSubstr("no flywheels has a different kind"));
 }
 
 TEST(EvaluateConclusions, CompareNothingWhereNoProposalIsFit) {
   auto base = moving("as it is", 0.1, 5.0);
-  base.laws.front().time_domain.reset();
+  base.controllers.front().time_domain.reset();
   EXPECT_THAT(concluded({base, candidate_of("no flywheels", 1.2)}),
               HasSubstr("mdeg): no eligible proposal to compare."));
 }
@@ -142,7 +142,7 @@ TEST(EvaluateConclusions, SayWhatSpeedsAreOnTheMast) {
   section.budgets[0].name = "tracking";
   section.budgets[0].wind_speed = 8.08537;
   section.candidates.push_back(moving("as it is", 0.1, 5.0));
-  section.candidates.back().laws[0].budgets_met = {12};
+  section.candidates.back().controllers[0].budgets_met = {12};
   EXPECT_THAT(conclude(section),
               AllOf(Contains(HasSubstr("divide by 1.155 for the case's 10 m mast.")),
                     Contains(HasSubstr("is met in 8.09 m/s at the dish, 7 at the mast by as it is "
@@ -159,14 +159,14 @@ TEST(EvaluateConclusions, SayOnHowManyPlantsANeededBudgetIsMet) {
   section.budgets[0].wind_speed = 12.0;
   for (const auto& [name, met] : {std::pair("as it is", 12), std::pair("no flywheels", 25)}) {
     section.candidates.push_back(moving(name, 0.1, 5.0));
-    section.candidates.back().laws[0].budgets_met = {met, std::nullopt};
+    section.candidates.back().controllers[0].budgets_met = {met, std::nullopt};
   }
   EXPECT_THAT(conclude(section), Contains("Ensemble of 30 plants: tracking (Ka: 0.500 mdeg) is met "
                                           "in 12 m/s by as it is on 12, no flywheels on 25."));
 }
 
 TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
-  const auto told = [](double proposal_speed, bool still, double as_it_is = 8.0) {
+  const auto told = [](double proposal_speed, bool limit_cycle_free, double as_it_is = 8.0) {
     EvaluateSection section;
     design::PointingBudget& budget = section.budgets.emplace_back();
     budget.name = "tracking";
@@ -175,11 +175,11 @@ TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
     budget.wind_speed = 12.0;
     section.candidates = {moving("as it is", 0.1, 5.0), moving("no flywheels", 0.1, 5.0)};
     for (auto& candidate : section.candidates) {
-      CandidateLaw& law = candidate.laws[0];
-      law.goals_met = law.design.verification.passed = true;
+      CandidateController& controller = candidate.controllers[0];
+      controller.constraints_met = controller.design.verification.passed = true;
       candidate.figures->speed_limits = {as_it_is};
     }
-    section.candidates[1].laws[0].still = still;
+    section.candidates[1].controllers[0].limit_cycle_free = limit_cycle_free;
     section.candidates[1].figures->speed_limits = {proposal_speed};
     return unmet_needs(section);
   };
@@ -202,31 +202,31 @@ TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
 struct Drawn {
   double mean;
   double best;
-  bool still;
+  bool limit_cycle_free;
 };
 
 EvaluateSection drawn(const std::vector<Drawn>& all, std::size_t best, std::size_t second) {
   EvaluateSection section;
-  DecisionSection draws;
+  DecisionSection random_samples;
   for (std::size_t i = 0; i < all.size(); ++i) {
     section.candidates.push_back(
         moving(i == 0 ? "as it is" : fmt::format("proposal {}", i), 0.1, 5.0));
-    CandidateLaw& law = section.candidates.back().laws[0];
-    law.goals_met = law.design.verification.passed = true;
-    law.still = all[i].still;
-    draws.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
-    auto& option = draws.statistics.options.emplace_back();
+    CandidateController& controller = section.candidates.back().controllers[0];
+    controller.constraints_met = controller.design.verification.passed = true;
+    controller.limit_cycle_free = all[i].limit_cycle_free;
+    random_samples.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
+    auto& option = random_samples.statistics.options.emplace_back();
     option.mean = all[i].mean;
     option.best.value = all[i].best;
     option.expected_regret = 0.25;
   }
-  draws.front_shares.resize(all.size());
-  draws.best = best;
-  draws.second = second;
-  auto& pair = draws.statistics.pairs.emplace_back();
+  random_samples.front_fractions.resize(all.size());
+  random_samples.best = best;
+  random_samples.second = second;
+  auto& pair = random_samples.statistics.pairs.emplace_back();
   pair.first = best;
   pair.second = second;
-  section.decision = std::move(draws);
+  section.decision = std::move(random_samples);
   design::rank_candidates({section.candidates.begin(), section.candidates.end()},
                           *section.decision);
   return section;
@@ -242,8 +242,8 @@ TEST(EvaluateConclusions, HoldNoChoiceAgainstWhatIsLeftOut) {
                       "best of all with probability 0.900"),
             HasSubstr("and better than as it is with probability"),
             HasSubstr("Expected regret against perfect information: 0.2500 mdeg. Intervals")));
-  const auto hunting = drawn({{1.03, 0.0, true}, {1.02, 0.0, true}, {0.77, 1.0, false}}, 1, 0);
-  EXPECT_THAT(told(hunting),
+  const auto limit_cycles = drawn({{1.03, 0.0, true}, {1.02, 0.0, true}, {0.77, 1.0, false}}, 1, 0);
+  EXPECT_THAT(told(limit_cycles),
               AllOf(HasSubstr("among eligible proposals: proposal 1, 1.0200 mdeg on average. It is "
                               "better than as it is with probability"),
                     HasSubstr("proposal 2 has the lowest rms of all, 0.7700 mdeg on average, but "
@@ -256,23 +256,24 @@ TEST(EvaluateConclusions, HoldNoChoiceAgainstWhatIsLeftOut) {
   EXPECT_THAT(told(drawn({{1.03, 0.0, true}, {0.77, 1.0, false}}, 0, 1)),
               AllOf(HasSubstr("as it is, 1.0300 mdeg on average. proposal 1 has"),
                     Not(HasSubstr("better than"))));
-  EXPECT_THAT(to_text(document_of(hunting, *hunting.decision)),
+  EXPECT_THAT(to_text(document_of(limit_cycles, *limit_cycles.decision)),
               HasSubstr("include ineligible proposals: proposal"));
 }
 
 TEST(EvaluateConclusions, NameGainsThatOnlyTheBoundsOfTheSearchHold) {
   Candidate candidate = moving("as it is", 0.1, 5.0);
-  CandidateLaw& law = candidate.laws[0];
-  law.structure = "PI+C";
-  auto& tuning = law.design.tuning;
-  tuning.law.structure = control::LoopStructure::named("PI+C");
-  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  CandidateController& controller = candidate.controllers[0];
+  controller.structure = "PI+C";
+  auto& tuning = controller.design.tuning;
+  tuning.controller.structure = control::LoopStructure::named("PI+C");
+  for (const auto& gain : tuning.controller.structure.gains())
+    tuning.controller.gains.push_back(gain.upper);
   tuning.gains_at_bound = {"compliance"};
   EXPECT_THAT(concluded({candidate}),
               HasSubstr("The search ended at the upper bound of the compliance, cs = 0.1 "
                         "rad/(N.m), with as it is (PI+C): widen it with "));
   EXPECT_THAT(concluded({candidate}), testing::Not(HasSubstr("kp*kr")));
-  candidate.laws[0].design.tuning.gains_at_bound = {"position gain"};
+  candidate.controllers[0].design.tuning.gains_at_bound = {"position gain"};
   EXPECT_THAT(concluded({candidate}),
               HasSubstr("only kp*kr matters, not a sound cascade: check with `boresight tune`."));
 }

@@ -33,7 +33,7 @@ EvaluateArguments arguments_of(std::vector<std::string> proposals) {
   arguments.case_path = case_path("dss14-70m");
   arguments.proposals = std::move(proposals);
   arguments.structures = {"PI"};
-  arguments.draws = 200;
+  arguments.random_samples = 200;
   arguments.starts = 2;
   arguments.threads = 1;
   return arguments;
@@ -69,8 +69,8 @@ TEST(Evaluate, PutsTheAntennaAsItIsFirst) {
   for (const auto& candidate : section.candidates) {
     ASSERT_TRUE(candidate.chosen) << candidate.name;
     EXPECT_TRUE(candidate.feasible()) << candidate.name;
-    EXPECT_TRUE(candidate.laws[*candidate.chosen].design.verification.passed);
-    EXPECT_EQ(candidate.laws[*candidate.chosen].ensemble->members.size(), 30U);
+    EXPECT_TRUE(candidate.controllers[*candidate.chosen].design.verification.passed);
+    EXPECT_EQ(candidate.controllers[*candidate.chosen].ensemble->members.size(), 30U);
   }
 }
 
@@ -93,7 +93,7 @@ TEST(Evaluate, HoldsTheDriveToItsLimits) {
 
 TEST(Evaluate, ComparesOnTheSameDraws) {
   const auto& decision = *two_proposals().evaluated->decision;
-  EXPECT_EQ(decision.draws, 200U);
+  EXPECT_EQ(decision.random_samples, 200U);
   ASSERT_EQ(decision.statistics.options.size(), 3U);
   ASSERT_EQ(decision.statistics.pairs.size(), 3U);
   double best = 0.0;
@@ -129,7 +129,7 @@ TEST(Evaluate, DrawsAgreeWithTheEnsemble) {
   for (std::size_t i = 0; i < section.candidates.size(); ++i) {
     const auto& candidate = section.candidates[i];
     const double members =
-        candidate.laws[*candidate.chosen].compared_rms() * 180e3 / 3.14159265358979;
+        candidate.controllers[*candidate.chosen].compared_rms() * 180e3 / 3.14159265358979;
     EXPECT_NEAR(section.decision->statistics.options[i].mean, members, 0.06 * members)
         << candidate.name;
   }
@@ -139,23 +139,25 @@ TEST(Evaluate, ComparesOnTheNonlinearAntenna) {
   const auto& section = *two_proposals().evaluated;
   ASSERT_TRUE(section.time_domain);
   for (const auto& candidate : section.candidates) {
-    const auto& law = candidate.laws[*candidate.chosen];
-    ASSERT_TRUE(law.time_domain) << candidate.name;
-    const auto& wind = law.time_domain->wind;
+    const auto& controller = candidate.controllers[*candidate.chosen];
+    ASSERT_TRUE(controller.time_domain) << candidate.name;
+    const auto& wind = controller.time_domain->wind;
     ASSERT_EQ(wind.status, design::RunStatus::complete) << candidate.name;
-    ASSERT_TRUE(law.expected) << candidate.name;
-    EXPECT_EQ(law.expected->records, 10);
-    EXPECT_DOUBLE_EQ(law.nonlinear_factor(), law.expected->rms.value / wind.predicted_rms);
-    EXPECT_DOUBLE_EQ(law.compared_rms(),
-                     std::hypot(law.nonlinear_factor() * law.member_rms,
-                                hunting_amplitude(law.time_domain->hunting) / std::sqrt(2.0)));
+    ASSERT_TRUE(controller.expected) << candidate.name;
+    EXPECT_EQ(controller.expected->records, 10);
+    EXPECT_DOUBLE_EQ(controller.simulated_to_linear_rms(),
+                     controller.expected->rms.value / wind.predicted_rms);
+    EXPECT_DOUBLE_EQ(
+        controller.compared_rms(),
+        std::hypot(controller.simulated_to_linear_rms() * controller.member_rms,
+                   limit_cycle_amplitude(controller.time_domain->limit_cycles) / std::sqrt(2.0)));
     // Friction and backlash cost no PI loop twice of what wind does.
-    EXPECT_GT(law.nonlinear_factor(), 0.9) << candidate.name;
-    EXPECT_LT(law.nonlinear_factor(), 2.0) << candidate.name;
-    EXPECT_EQ(law.time_domain->hunting.size(), 2U);
-    EXPECT_TRUE(law.time_domain->reversal);
+    EXPECT_GT(controller.simulated_to_linear_rms(), 0.9) << candidate.name;
+    EXPECT_LT(controller.simulated_to_linear_rms(), 2.0) << candidate.name;
+    EXPECT_EQ(controller.time_domain->limit_cycles.size(), 2U);
+    EXPECT_TRUE(controller.time_domain->reversal);
     // Losses go with the square of the rms.
-    const double rms = law.effect().rms(law.design.beam_rms);
+    const double rms = controller.effect().rms(controller.design.boresight_rms);
     const double loss = design::pointing_loss_db(rms, section.bands[0].beamwidth,
                                                  design::LossConvention::mean_loss_two_axes);
     EXPECT_NEAR(candidate.figures->losses[0], loss, 1e-5 * loss);
@@ -165,14 +167,14 @@ TEST(Evaluate, ComparesOnTheNonlinearAntenna) {
 
 TEST(Evaluate, ComparesLinearLoopsIfAskedTo) {
   auto arguments = arguments_of({proposal_path("half-flywheels")});
-  arguments.draws = 100;
+  arguments.random_samples = 100;
   arguments.time_domain = false;
   const Report report = evaluate_case(arguments, nullptr);
   EXPECT_FALSE(report.evaluated->time_domain);
   for (const auto& candidate : report.evaluated->candidates) {
-    const auto& law = candidate.laws[*candidate.chosen];
-    EXPECT_FALSE(law.time_domain);
-    EXPECT_EQ(law.compared_rms(), law.member_rms);
+    const auto& controller = candidate.controllers[*candidate.chosen];
+    EXPECT_FALSE(controller.time_domain);
+    EXPECT_EQ(controller.compared_rms(), controller.member_rms);
   }
   EXPECT_THAT(to_text(report), HasSubstr("linear loops only"));
   // What only simulated runs rest on is not listed then.
@@ -193,7 +195,7 @@ TEST(Evaluate, ListsWhatProposalsAssume) {
 
 TEST(Evaluate, DoesNotDependOnThreads) {
   auto arguments = arguments_of({proposal_path("half-flywheels")});
-  arguments.draws = 150;
+  arguments.random_samples = 150;
   const std::string one = to_json(evaluate_case(arguments, nullptr));
   arguments.threads = 3;
   EXPECT_EQ(to_json(evaluate_case(arguments, nullptr)), one);

@@ -17,7 +17,8 @@ Candidate candidate_of(const std::string& name, std::size_t chosen) {
   Candidate candidate;
   candidate.name = name;
   if (name != "as it is") candidate.path = name + ".toml";
-  for (const char* structure : {"PI", "DPF"}) candidate.laws.emplace_back().structure = structure;
+  for (const char* structure : {"PI", "DPF"})
+    candidate.controllers.emplace_back().structure = structure;
   candidate.chosen = chosen;
   return candidate;
 }
@@ -42,10 +43,10 @@ std::string told(const std::vector<double>& gains) {
                                 .first_usable = true,
                                 .second_usable = true});
   }
-  return law_or_hardware(section, decision);
+  return controller_or_hardware(section, decision);
 }
 
-TEST(PairsByStructure, TellTheLawsShareFromTheHardwares) {
+TEST(PairsByStructure, TellTheControllersFractionFromTheHardwares) {
   EXPECT_THAT(
       told({-0.03, -0.04}),
       AllOf(HasSubstr("no flywheels (DPF) has 0.2000 mdeg less than as it is (PI)"),

@@ -149,16 +149,16 @@ std::vector<Place> corners(const std::string& path) {
 }
 
 double distance_to_path(const std::vector<Place>& path, double x, double y) {
-  double least = std::numeric_limits<double>::infinity();
+  double minimum = std::numeric_limits<double>::infinity();
   for (std::size_t i = 1; i < path.size(); ++i) {
     if (path[i].starts) continue;
     const Place a = path[i - 1], b = path[i];
     const double dx = b.x - a.x, dy = b.y - a.y, squared = dx * dx + dy * dy;
     const double along =
         squared > 0.0 ? std::clamp(((x - a.x) * dx + (y - a.y) * dy) / squared, 0.0, 1.0) : 0.0;
-    least = std::min(least, std::hypot(x - a.x - along * dx, y - a.y - along * dy));
+    minimum = std::min(minimum, std::hypot(x - a.x - along * dx, y - a.y - along * dy));
   }
-  return least;
+  return minimum;
 }
 
 Figure resonances(AxisScale scale) {

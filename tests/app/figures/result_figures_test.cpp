@@ -83,15 +83,15 @@ TEST(InertiaFigures, DrawNoCombinedValueOfMethodsThatContradictOneAnother) {
   IdentificationSection section;
   section.inertia.methods = {method("masses", 1.8, 2.0, 2.4), method("peak", 1.45, 4.6, infinity)};
   section.printed = {{"", ""}, {"", ""}};
-  section.reconciled.emplace();
-  section.reconciled->value = 1.6;
-  section.reconciled->lower = 1.5;
-  section.reconciled->upper = 1.7;
-  section.reconciled->degrees_of_freedom = 1;
-  section.reconciled->heterogeneity = 0.5;
+  section.combined.emplace();
+  section.combined->value = 1.6;
+  section.combined->lower = 1.5;
+  section.combined->upper = 1.7;
+  section.combined->degrees_of_freedom = 1;
+  section.combined->heterogeneity = 0.5;
   EXPECT_EQ(inertia_figures(section)[0].panels.front().y.categories.size(), 3U);
-  section.reconciled->heterogeneity = 50.0;
-  ASSERT_TRUE(section.reconciled->contradictory());
+  section.combined->heterogeneity = 50.0;
+  ASSERT_TRUE(section.combined->contradictory());
   const auto figures = inertia_figures(section);
   EXPECT_EQ(figures[0].panels.front().y.categories, (std::vector<std::string>{"masses", "peak"}));
   EXPECT_EQ(figures[1].panels.front().y.categories, (std::vector<std::string>{"masses", "peak"}));
@@ -151,15 +151,15 @@ TEST(ErrorBudgetFigure, HasTheTotalBesideItsPartsAndTheBudgetsAsLines) {
 
 TEST(TimeDomainFigures, LeadFromThePredictionToTheSimulation) {
   TimeDomainSection section;
-  section.law = "PI";
+  section.controller = "PI";
   auto& wind = section.result.wind;
   wind.predicted_rms = 0.5 * millidegree;
-  wind.chance = 0.02 * millidegree;
+  wind.realisation_error = 0.02 * millidegree;
   wind.sampling = -0.01 * millidegree;
   wind.influences = {
       {design::Influence::friction, design::RunStatus::complete, 0.0, 0.3 * millidegree}};
-  wind.joint = 0.04 * millidegree;
-  wind.beam_rms = 0.85 * millidegree;
+  wind.interaction = 0.04 * millidegree;
+  wind.boresight_rms = 0.85 * millidegree;
   const auto figures = time_domain_figures(section, "heading");
   ASSERT_EQ(figures.size(), 1U);
   expect_drawable(figures);
@@ -197,7 +197,7 @@ double largest(const std::vector<double>& values) {
 
 TEST(TraceFigures, PartsOfTheErrorInWindSumToTheBoresightError) {
   TimeDomainSection section;
-  section.law = "PI";
+  section.controller = "PI";
   section.result.wind.status = design::RunStatus::lost;
   section.result.wind.trace = swinging(millidegree, 0.25);
   section.present = {"PI-0", swinging(2.0 * millidegree, 0.5)};
@@ -218,14 +218,14 @@ TEST(TraceFigures, PartsOfTheErrorInWindSumToTheBoresightError) {
 
 TEST(TraceFigures, ShowLimitCyclesAndReversalsOfRunsThatCompleted) {
   TimeDomainSection section;
-  section.law = "PI";
+  section.controller = "PI";
   section.result.wind.status = design::RunStatus::lost;
-  design::HuntingResult rest, tracking;
+  design::LimitCycleResult rest, tracking;
   rest.limit_cycle = true;
   rest.trace = swinging(0.3 * millidegree, 0.9);
   tracking.rate = 4.0 * millidegree;
   tracking.status = design::RunStatus::lost;
-  section.result.hunting = {rest, tracking};
+  section.result.limit_cycles = {rest, tracking};
   design::ReversalResult reversal;
   reversal.leg = 20.0;
   reversal.trace = swinging(2.0 * millidegree, 0.9);
@@ -249,7 +249,7 @@ TEST(BenchmarkFigures, PutTheComparedSheetBesideAndDrawNothingOfAnUnstableLoop) 
   EXPECT_TRUE(benchmark_figures(report).empty());
   report.score.stable = true;
   report.score.worst = {.frequency = 1.0, .lower = 2e-9, .upper = 2e-9};
-  report.score.encoder_held_compliance = 1e-9;
+  report.score.flexure_compliance = 1e-9;
   report.score.compliance = {{0.1, 1e-9}, {1.0, 2e-9}};
   report.score.winds = {
       {"", 0.1, plant::WindModel::coherence, 5.0, 1.0, 1e-6, 1.1e-6},
@@ -294,8 +294,8 @@ TEST(CommissionFigures, TakeGainsOverTheirFinalValueAndLeaveOutWhatIsNotThere) {
     StageSheet sheet;
     sheet.gains = {{"kr", "rate gain", "", value, true}};
     sheet.stage.expected.peak = {1.5, 1.4, 1.7, 1.3, 1.8};
-    sheet.stage.abort.still_encoder_rms = std::numeric_limits<double>::quiet_NaN();
-    sheet.stage.expected.still_encoder = {NAN, NAN, NAN, NAN, NAN};
+    sheet.stage.abort.calm_encoder_rms = std::numeric_limits<double>::quiet_NaN();
+    sheet.stage.expected.calm_encoder = {NAN, NAN, NAN, NAN, NAN};
     report.sheets.push_back(sheet);
   }
   const auto figures = commission_figures(report);

@@ -84,17 +84,17 @@ TEST(IdentifiedCase, RefusesAnInertiaThatLeavesNoAntenna) {
 // draws.
 TEST(DrawnMembers, BeginWithThoseThatAControllerIsTunedOn) {
   const io::Case antenna = seventy_metres();
-  std::vector<identification::DriveEstimate> draws(40, estimate());
-  for (std::size_t i = 0; i < draws.size(); ++i) {
-    draws[i].oil_stiffness *= 1.0 + 0.001 * static_cast<double>(i);
+  std::vector<identification::DriveEstimate> random_samples(40, estimate());
+  for (std::size_t i = 0; i < random_samples.size(); ++i) {
+    random_samples[i].oil_stiffness *= 1.0 + 0.001 * static_cast<double>(i);
   }
   const design::Mission mission = mission_of(with_identified(antenna, estimate()));
-  const auto distribution = design::PlantDistribution::of_records(mission, draws);
+  const auto distribution = design::PlantDistribution::of_records(mission, random_samples);
   const auto few = io::drawn_members(mission, distribution, 1, 2);
   const auto more = io::drawn_members(mission, distribution, 1, 5);
   ASSERT_EQ(few.size(), 2U);
   ASSERT_EQ(more.size(), 5U);
-  EXPECT_EQ(more[4].name, "draw 5");
+  EXPECT_EQ(more[4].name, "sample 5");
   for (std::size_t i = 0; i < few.size(); ++i) {
     EXPECT_EQ(few[i].plant.drive.oil_stiffness, more[i].plant.drive.oil_stiffness);
   }

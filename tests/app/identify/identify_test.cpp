@@ -60,16 +60,16 @@ nlohmann::json truth_of(const std::string& campaign) {
 }
 
 double true_friction(const nlohmann::json& truth, double rate) {
-  const auto& law = truth["friction"];
-  const double fc = law["Fc"], fs = law["Fs"], vs = law["vs"], a = law["A"], v1 = law["v1"],
-               b = law["b"];
+  const auto& controller = truth["friction"];
+  const double fc = controller["Fc"], fs = controller["Fs"], vs = controller["vs"],
+               a = controller["A"], v1 = controller["v1"], b = controller["b"];
   return fc + (fs - fc) * std::exp(-std::pow(rate / vs, 2)) + a * (1.0 - std::exp(-rate / v1)) +
          b * rate;
 }
 
-void expect_close_and_covered(const Interval& found, double truth, double share,
+void expect_close_and_covered(const Interval& found, double truth, double fraction,
                               const std::string& what) {
-  EXPECT_NEAR(found.value, truth, share * std::abs(truth)) << what;
+  EXPECT_NEAR(found.value, truth, fraction * std::abs(truth)) << what;
   EXPECT_LE(found.lower, truth) << what;
   EXPECT_GE(found.upper, truth) << what;
 }
@@ -77,8 +77,8 @@ void expect_close_and_covered(const Interval& found, double truth, double share,
 void expect_truth(const io::CampaignSection& section, const std::string& campaign) {
   const auto truth = truth_of(campaign);
   ASSERT_TRUE(section.grey_box);
-  const auto check = [&](const char* quantity, const char* key, double share) {
-    expect_close_and_covered(section.grey_box->quantity(quantity).posterior, truth[key], share,
+  const auto check = [&](const char* quantity, const char* key, double fraction) {
+    expect_close_and_covered(section.grey_box->quantity(quantity).posterior, truth[key], fraction,
                              quantity);
   };
   check("inertia", "reflected_inertia", 0.02);
@@ -92,8 +92,8 @@ void expect_truth(const io::CampaignSection& section, const std::string& campaig
   int tested = 0;
   for (const auto& row : section.friction) {
     if (row.extrapolated) continue;
-    ASSERT_TRUE(row.reconciled);
-    EXPECT_NEAR(row.reconciled->value, true_friction(truth, row.rate),
+    ASSERT_TRUE(row.combined);
+    EXPECT_NEAR(row.combined->value, true_friction(truth, row.rate),
                 0.05 * true_friction(truth, row.rate))
         << row.rate;
     ++tested;

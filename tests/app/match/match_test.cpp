@@ -79,12 +79,12 @@ TEST(Match, SlewsByNewton) {
   const MatchSection& section = small_study();
   ASSERT_TRUE(section.slew_by_simulation);
   for (const auto& point : section.points) {
-    // As design::within_reach and `evaluate` have it: half of what is left beyond the valve's drop,
-    // friction and offset.
+    // As design::achievable_limits and `evaluate` have it: half of what is left beyond the valve's
+    // drop, friction and offset.
     const double rate = section.slew_rate * ratio;
-    const double share = rate / (model.valve.stroke_limit - model.valve.overlap);
+    const double fraction = rate / (model.valve.stroke_limit - model.valve.overlap);
     const double available =
-        (model.oil.supply_torque - model.oil.return_torque) * (1.0 - share * share);
+        (model.oil.supply_torque - model.oil.return_torque) * (1.0 - fraction * fraction);
     const double load = plant::friction_torque(io::friction_curve(antenna), rate) + 5.65;
     EXPECT_NEAR(point.acceleration * ratio * point.reflected_inertia, 0.5 * (available - load),
                 1e-9 * supply_torque(antenna));
@@ -123,14 +123,14 @@ TEST(Match, AccelerationOfTheBestRatioIsOneAtRatioOne) {
 TEST(Match, FollowsAConstantAccelerationAsThePositionGainsSay) {
   const auto& series = small_study().series.front();
   for (std::size_t i = 0; i < series.values.size(); ++i) {
-    const auto& law = series.curve.laws[i].law;
-    const double gains = control::gain(law, "kp") * control::gain(law, "wip");
+    const auto& controller = series.curve.controllers[i].controller;
+    const double gains = control::gain(controller, "kp") * control::gain(controller, "wip");
     EXPECT_NEAR(series.values[i].acceleration_error * gains, 1.0, 0.02);
     EXPECT_GT(series.values[i].bandwidth, 0.0);
   }
 }
 
-TEST(Match, EveryLawIsVerifiedAndMoreStructureIsNeverWorse) {
+TEST(Match, EveryControllerIsVerifiedAndMoreStructureIsNeverWorse) {
   const auto& section = small_study();
   EXPECT_TRUE(section.settled);
   for (std::size_t i = 0; i < section.points.size(); ++i) {
@@ -138,14 +138,14 @@ TEST(Match, EveryLawIsVerifiedAndMoreStructureIsNeverWorse) {
     const auto& lagged = section.series[1].values[i];
     EXPECT_TRUE(plain.found && lagged.found);
     EXPECT_TRUE(plain.verification.passed) << plain.verification.failure;
-    EXPECT_LT(lagged.beam_rms, plain.beam_rms * (1.0 + section.tolerance));
-    EXPECT_NEAR(plain.beam_rms,
-                section.series[0].curve.laws[i].soft_rms / io::gear_ratio(big_antenna()),
-                1e-5 * plain.beam_rms);
+    EXPECT_LT(lagged.boresight_rms, plain.boresight_rms * (1.0 + section.tolerance));
+    EXPECT_NEAR(plain.boresight_rms,
+                section.series[0].curve.controllers[i].soft_rms / io::gear_ratio(big_antenna()),
+                1e-5 * plain.boresight_rms);
   }
 }
 
-TEST(Match, JudgesTheClassicRules) {
+TEST(Match, EvaluatesTheClassicRules) {
   const auto& rules = small_study().rules;
   ASSERT_EQ(rules.size(), 4U);
   for (const auto& rule : rules) {
@@ -173,13 +173,13 @@ TEST(Match, NamesInertiasThatAreAsGoodBeyondTheFlatRange) {
   MatchSection section = small_study();
   auto& series = section.series[0];
   const auto told = [&] { return conclude(section)[1]; };
-  const double least = series.values.back().beam_rms;
-  for (auto& value : series.values) value.beam_rms = 1.05 * least;
+  const double minimum = series.values.back().boresight_rms;
+  for (auto& value : series.values) value.boresight_rms = 1.05 * minimum;
   series.best = series.values.size() - 1;
-  series.values.back().beam_rms = least;
+  series.values.back().boresight_rms = minimum;
   series.within_1_percent = {0.9 * section.points.back().disks, section.points.back().disks};
   EXPECT_EQ(told().find("too"), std::string::npos);
-  series.values.front().beam_rms = 1.0006 * least;
+  series.values.front().boresight_rms = 1.0006 * minimum;
   EXPECT_NE(told().find("; 0 disks within 1 % too."), std::string::npos) << told();
   series.values.front().found = false;
   EXPECT_EQ(told().find("too"), std::string::npos);
@@ -188,8 +188,8 @@ TEST(Match, NamesInertiasThatAreAsGoodBeyondTheFlatRange) {
 TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
   MatchSection section = small_study();
   for (auto& point : section.points) {
-    EXPECT_GE(point.oil_mode.oil_share, point.hydraulic.oil_share);
-    point.hydraulic.oil_share = point.oil_mode.oil_share = 0.6;
+    EXPECT_GE(point.oil_mode.oil_fraction, point.hydraulic.oil_fraction);
+    point.hydraulic.oil_fraction = point.oil_mode.oil_fraction = 0.6;
   }
   const auto told = [&](const std::string& sentence) {
     const std::string text = to_text(document_of(section));
@@ -198,11 +198,11 @@ TEST(Match, NamesTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
   EXPECT_TRUE(told("hydr., zeta: the hydraulic mode, the lowest that moves the oil"));
   EXPECT_FALSE(told("dominant hydraulic mode"));
   const auto hides_it = [](MatchPoint& point, double frequency) {
-    point.hydraulic.oil_share = 0.06;
-    point.hydraulic.gear_share = 0.7;
+    point.hydraulic.oil_fraction = 0.06;
+    point.hydraulic.gear_fraction = 0.7;
     point.oil_mode.frequency = frequency;
     point.oil_mode.damping_ratio = 0.03;
-    point.oil_mode.oil_share = 0.8;
+    point.oil_mode.oil_fraction = 0.8;
   };
   hides_it(section.points.front(), 22.3);
   EXPECT_TRUE(
@@ -221,7 +221,7 @@ TEST(Match, AnInterruptLeavesWhatWasWhole) {
   options.interrupted = [&] { return steps >= 2; };
   const auto section = matched(big_antenna(), options);
   EXPECT_TRUE(section.series[0].values[0].found);
-  EXPECT_FALSE(section.series[1].curve.laws.back().searched);
+  EXPECT_FALSE(section.series[1].curve.controllers.back().searched);
   EXPECT_FALSE(section.settled);
 }
 
@@ -235,7 +235,7 @@ TEST(Match, SaysWhatItCannotWorkOn) {
   EXPECT_EQ(message_of([&] { matched(big_antenna(), options); }),
             "match: expected at least 4 points, found 3");
   options = small_options();
-  options.most_disks = -1.0;
+  options.max_disks = -1.0;
   EXPECT_EQ(message_of([&] { matched(big_antenna(), options); }),
             "match: expected more than 0 disks at most, found -1");
 }

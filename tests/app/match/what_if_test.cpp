@@ -17,7 +17,7 @@ namespace boresight::app {
 namespace {
 
 // The study of one law at two numbers of disks, with the gains of the last held at both.
-design::MatchingStudy study_of_one_law(const io::Case& antenna) {
+design::MatchingStudy study_of_one_controller(const io::Case& antenna) {
   design::MatchingStudy section;
   section.goals = make_goals(antenna);
   section.wind_speed = antenna.wind->design_speed.value;
@@ -35,10 +35,10 @@ design::MatchingStudy study_of_one_law(const io::Case& antenna) {
     design::MatchPoint point;
     point.disks = disks;
     section.points.push_back(point);
-    design::MatchedLaw law;
-    law.law = found.law;
-    law.status = found.status;
-    series.curve.laws.push_back(law);
+    design::MatchedController controller;
+    controller.controller = found.controller;
+    controller.status = found.status;
+    series.curve.controllers.push_back(controller);
   }
   section.series.push_back(std::move(series));
   return section;
@@ -48,7 +48,7 @@ design::MatchingStudy study_of_one_law(const io::Case& antenna) {
 // whose corners are stable that is what the plant gives.
 TEST(WhatIf, InterpolatesWhatThePlantGives) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
-  const design::MatchingStudy section = study_of_one_law(antenna);
+  const design::MatchingStudy section = study_of_one_controller(antenna);
   const design::WhatIfTable table = design::what_if(io::mission_of(antenna), section, {});
   double largest = 0.0;
   int cells = 0, close = 0;
@@ -57,22 +57,22 @@ TEST(WhatIf, InterpolatesWhatThePlantGives) {
     problem.climate.clear();
     problem.wind.mean_speed = std::sqrt(table.wind_speeds[v] * table.wind_speeds[v + 1]);
     const design::MonteCarlo study{
-        problem, section.series[0].curve.laws[1].law, section.goals, 0, {}};
-    design::MonteCarloJudge judge(study);
+        problem, section.series[0].curve.controllers[1].controller, section.goals, 0, {}};
+    design::MonteCarloEvaluator evaluate(study);
     plant::AntennaPlant plant = problem.plant;
     for (std::size_t l = 0; l + 1 < table.leakage_rates.size(); ++l) {
       plant.drive.leakage_rate = 0.5 * (table.leakage_rates[l] + table.leakage_rates[l + 1]);
       for (std::size_t f = 0; f + 1 < table.friction_slopes.size(); ++f) {
         double sum = 0.0;
         for (std::size_t corner = 0; corner < 8; ++corner) {
-          sum += std::log(table.beam_rms[table.place(0, 1, l + corner % 2, f + corner / 2 % 2,
-                                                     v + corner / 4)]) /
+          sum += std::log(table.boresight_rms[table.place(0, 1, l + corner % 2, f + corner / 2 % 2,
+                                                          v + corner / 4)]) /
                  8.0;
         }
         if (!std::isfinite(sum)) continue;
         plant.drive.viscous_friction =
             0.5 * (table.friction_slopes[f] + table.friction_slopes[f + 1]);
-        const double found = judge.judge(plant, false).beam_rms;
+        const double found = evaluate.evaluate(plant, false).boresight_rms;
         const double error = std::abs(std::exp(sum) / found - 1.0);
         largest = std::max(largest, error);
         if (error < 0.02) ++close;

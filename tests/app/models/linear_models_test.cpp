@@ -28,10 +28,10 @@ io::Case antenna() {
 
 LinearModels models() {
   const auto& structure = control::LoopStructure::pressure_feedback();
-  control::ControlLaw law{structure, {}};
+  control::Controller controller{structure, {}};
   for (const auto& gain : structure.gains())
-    law.gains.push_back(std::sqrt(gain.lower * gain.upper));
-  return linear_models(make_problem(antenna()), law, "some law");
+    controller.gains.push_back(std::sqrt(gain.lower * gain.upper));
+  return linear_models(make_problem(antenna()), controller, "some controller");
 }
 
 // The part of a report that has them.
@@ -75,13 +75,13 @@ TEST(LinearModels, ComeBackBitByBitFromMatAndJson) {
   EXPECT_EQ(mat, to_mat(written, "redesign", "case.toml"));
 }
 
-TEST(LinearModels, GiveBenchmarksTheLawsOwnController) {
+TEST(LinearModels, GiveBenchmarksTheControllersOwnController) {
   const double ratio = io::gear_ratio(antenna());
   const LinearModels written = models();
   const auto mat = io::parse_controller(to_mat(written, "tune", "case.toml"), "m.mat", ratio);
   const auto json =
       io::parse_controller(report_with(written), "r.json", ratio, {{}, {}, "controller"});
-  const auto own = design::controller_of(written.loop->law, "law", 0.0);
+  const auto own = design::controller_of(written.loop->controller, "controller", 0.0);
   for (const auto* read : {&mat.system, &json.system}) {
     EXPECT_EQ(read->a, own.system.a);
     EXPECT_EQ(read->b, own.system.b);

@@ -16,10 +16,10 @@ using testing::Not;
 
 MonteCarloSection section_of(std::vector<double> losses) {
   MonteCarloSection section;
-  section.beam_rms = design::summarise({1e-5, 2e-5}, {0.05, 0.5, 0.95, 0.99});
+  section.boresight_rms = design::summarise({1e-5, 2e-5}, {0.05, 0.5, 0.95, 0.99});
   section.losses.emplace_back().band.name = "Ka";
   section.losses.back().loss = design::summarise(std::move(losses), {0.05, 0.5, 0.95, 0.99});
-  section.law.structure = control::LoopStructure::pi_with_lag();
+  section.controller.structure = control::LoopStructure::pi_with_lag();
   return section;
 }
 

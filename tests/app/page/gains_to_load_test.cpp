@@ -18,14 +18,14 @@ Candidate candidate_of(const std::string& path, double rate_gain) {
   Candidate candidate;
   candidate.name = path.empty() ? "as it is" : "no flywheels";
   candidate.path = path;
-  CandidateLaw law;
-  law.structure = "PI";
-  law.goals_met = true;
-  law.design.verification.passed = true;
-  law.design.tuning.law = {control::LoopStructure::named("PI"),
-                           {rate_gain, 0.255, 3.28, 30.0, 0.262}};
-  candidate.gains = {io::GainUnits().texts(law.design.tuning.law)};
-  candidate.laws = {law};
+  CandidateController controller;
+  controller.structure = "PI";
+  controller.constraints_met = true;
+  controller.design.verification.passed = true;
+  controller.design.tuning.controller = {control::LoopStructure::named("PI"),
+                                         {rate_gain, 0.255, 3.28, 30.0, 0.262}};
+  candidate.gains = {io::GainUnits().texts(controller.design.tuning.controller)};
+  candidate.controllers = {controller};
   candidate.chosen = 0U;
   return candidate;
 }
@@ -49,7 +49,7 @@ TEST(GainsToLoad, AreNoneWithoutAControllerThatMeetsItsConstraints) {
   EXPECT_TRUE(gains_to_load(report).blocks.empty());
   EvaluateSection& section = report.evaluated.emplace();
   section.candidates = {candidate_of("", 0.133)};
-  section.candidates[0].laws[0].goals_met = false;
+  section.candidates[0].controllers[0].constraints_met = false;
   EXPECT_TRUE(gains_to_load(report).blocks.empty());
 }
 

@@ -132,16 +132,17 @@ TEST(Page, OnlyItsOwnScriptsMayRun) {
 std::string loop_without_friction() {
   design::AdjustableLoop loop;
   loop.structure = "PI";
-  loop.law = {control::LoopStructure("three", {{control::LoopPath::rate,
-                                                control::BlockKind::gain,
-                                                {{"rate <gain>", "kr", "1", 0.1, 1.0}}},
-                                               {control::LoopPath::rate,
-                                                control::BlockKind::integral,
-                                                {{"corner", "wi", "rad/s", 0.1, 1.0}}},
-                                               {control::LoopPath::position,
-                                                control::BlockKind::gain,
-                                                {{"position gain", "kp", "1/s", 0.1, 1.0}}}}),
-              {0.2, 0.8, 0.3}};
+  loop.controller = {
+      control::LoopStructure("three", {{control::LoopPath::rate,
+                                        control::BlockKind::gain,
+                                        {{"rate <gain>", "kr", "1", 0.1, 1.0}}},
+                                       {control::LoopPath::rate,
+                                        control::BlockKind::integral,
+                                        {{"corner", "wi", "rad/s", 0.1, 1.0}}},
+                                       {control::LoopPath::position,
+                                        control::BlockKind::gain,
+                                        {{"position gain", "kp", "1/s", 0.1, 1.0}}}}),
+      {0.2, 0.8, 0.3}};
   loop.problem.wind.mean_speed = 10.0;
   loop.problem.plant.drive.oil_stiffness = 50.0;
   loop.problem.plant.drive.leakage_rate = 1.2;

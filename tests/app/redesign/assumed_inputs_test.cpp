@@ -10,7 +10,7 @@
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/simulate/time_domain.hpp>
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
 
@@ -72,11 +72,12 @@ TEST(AssumedInputs, NameNoPreloadWhereGearsHaveNoBacklash) {
               Not(Contains("simulation.preload_torque")));
 }
 
-// What within_reach says moves with each key of steady motion at hand, and with no other.
+// What achievable_limits says moves with each key of steady motion at hand, and with no other.
 TEST(AssumedInputs, OfSteadyMotionAreThoseThatMoveWhatTheDriveCanDo) {
   const auto keys = listed(assumed_inputs(reference(), {.steady_motion = true}));
   const auto reach = [](const io::Case& antenna) {
-    const auto limits = design::within_reach(make_nonlinear_antenna(antenna), 1.8, {80.0, 100.0});
+    const auto limits =
+        design::achievable_limits(make_nonlinear_antenna(antenna), 1.8, {80.0, 100.0});
     return std::pair(limits.rate, limits.acceleration);
   };
   const auto as_it_is = reach(reference());

@@ -53,16 +53,17 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
       "case.toml");
   const design::Design design = tuned(antenna);
   ASSERT_TRUE(design.usable());
-  const auto& law = design.tuning.law;
-  const auto effects = input_effects(antenna, law, make_goals(antenna), design.beam_rms, all, 2);
+  const auto& controller = design.tuning.controller;
+  const auto effects =
+      input_effects(antenna, controller, make_goals(antenna), design.boresight_rms, all, 2);
   // The wind's torque goes with the density, and the sensors' noise does not.
   const InputEffect& density = effect_of(effects, "wind.air_density");
   EXPECT_FALSE(density.unstated);
   EXPECT_NEAR(density.moved_by, 0.033, 1e-12);
   EXPECT_NEAR(density.high_rms, std::hypot(1.03 * design.wind_rms, design.noise_rms),
-              1e-5 * design.beam_rms);
+              1e-5 * design.boresight_rms);
   EXPECT_NEAR(density.low_rms, std::hypot(0.97 * design.wind_rms, design.noise_rms),
-              1e-5 * design.beam_rms);
+              1e-5 * design.boresight_rms);
   // An assumed number without an uncertainty is moved by a tenth; the torque goes with it as well.
   const InputEffect& coefficient = effect_of(effects, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
@@ -70,18 +71,20 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
   // Davenport's gusts go with the root of the drag, also where it is converted from a mast.
   const InputEffect& drag = effect_of(effects, "wind.surface_drag");
   EXPECT_NEAR(drag.high_rms, std::hypot(std::sqrt(1.1) * design.wind_rms, design.noise_rms),
-              1e-5 * design.beam_rms);
+              1e-5 * design.boresight_rms);
   // What is moved is the plant that a case with that number has: here of the dead time.
   const InputEffect& delay = effect_of(effects, "controller.delay");
   io::Case later = antenna;
   later.controller->delay.value += delay.moved_by;
-  EXPECT_NEAR(delay.high_rms, design::assess(make_problem(later), law, make_goals(later)).beam_rms,
-              1e-5 * design.beam_rms);
+  EXPECT_NEAR(delay.high_rms,
+              design::assess(make_problem(later), controller, make_goals(later)).boresight_rms,
+              1e-5 * design.boresight_rms);
   // In falling order, the same for any number of threads, and cut where asked.
   for (std::size_t i = 1; i < effects.size(); ++i) {
-    EXPECT_GE(effects[i - 1].change(design.beam_rms), effects[i].change(design.beam_rms));
+    EXPECT_GE(effects[i - 1].change(design.boresight_rms), effects[i].change(design.boresight_rms));
   }
-  const auto few = input_effects(antenna, law, make_goals(antenna), design.beam_rms, 3, 1);
+  const auto few =
+      input_effects(antenna, controller, make_goals(antenna), design.boresight_rms, 3, 1);
   ASSERT_EQ(few.size(), 3U);
   for (std::size_t i = 0; i < few.size(); ++i) {
     EXPECT_EQ(few[i].quantity.key, effects[i].quantity.key);
@@ -100,10 +103,10 @@ TEST(InputEffects, SayWhatToMeasureFirst) {
   EXPECT_NEAR(effect.change(rms), 0.1, 1e-12);
   EXPECT_THAT(measure_first({effect}, rms),
               HasSubstr("wind.torque_coefficient (0.450 to 0.550 mdeg over +-10 %): measure that"));
-  InputEffect share = effect;
-  share.quantity.key = "structure.mode[1].beam_weight";
-  share.mode = "the mode of 1.75 Hz with the bull gear locked";
-  EXPECT_THAT(measure_first({share}, rms),
+  InputEffect fraction = effect;
+  fraction.quantity.key = "structure.mode[1].beam_weight";
+  fraction.mode = "the mode of 1.75 Hz with the bull gear locked";
+  EXPECT_THAT(measure_first({fraction}, rms),
               HasSubstr("structure.mode[1].beam_weight of the mode of 1.75 Hz with the bull gear "
                         "locked (0.450 to"));
   InputEffect unstable = effect;

@@ -10,7 +10,7 @@ inline design::Design design_of(double rms_mdeg) {
   design::Design design;
   design.tuning.status = design::TuningStatus::optimal;
   design.verification.passed = true;
-  design.beam_rms = rms_mdeg * millidegree;
+  design.boresight_rms = rms_mdeg * millidegree;
   return design;
 }
 

@@ -23,10 +23,11 @@ using testing::Not;
 design::Design design_at_upper_bounds() {
   design::Design design;
   design.verification.passed = true;
-  design.beam_rms = 0.5 * millidegree;
+  design.boresight_rms = 0.5 * millidegree;
   auto& tuning = design.tuning;
   tuning.status = design::TuningStatus::optimal;
-  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  for (const auto& gain : tuning.controller.structure.gains())
+    tuning.controller.gains.push_back(gain.upper);
   tuning.gains_at_bound = {"rate lag corner", "position gain"};
   return design;
 }

@@ -9,7 +9,7 @@
 
 #include "io/oil_case.hpp"
 #include <boresight/app/document/document_text.hpp>
-#include <boresight/app/redesign/choices.hpp>
+#include <boresight/app/redesign/interpretations.hpp>
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/report/decision.hpp>
@@ -131,17 +131,17 @@ TEST(ResonanceVerdict, SaysWhereItsModeTellsLittleOfTheOil) {
   antenna.structure->locked_rotor_frequency.value = 0.2;
   const auto verdict = resonance_verdict(antenna);
   ASSERT_TRUE(verdict);
-  EXPECT_LT(verdict->mode.oil_share, 0.1);
-  EXPECT_GT(verdict->oil_mode.oil_share, 0.9);
+  EXPECT_LT(verdict->mode.oil_fraction, 0.1);
+  EXPECT_GT(verdict->oil_mode.oil_fraction, 0.9);
   EXPECT_THAT(resonance_sentence(*verdict),
               EndsWith(fmt::format(
                   "Only {:.0f} % of that mode's elastic energy is in the oil, {:.0f} % in the "
                   "gearbox spring and the rest in the structure. The dominant hydraulic mode is at "
                   "{:.3g} Hz, damping ratio {:.3g}, with {:.0f} % in the oil. Check which of them "
                   "was measured and state it in resonance.mode.",
-                  100.0 * verdict->mode.oil_share, 100.0 * verdict->mode.gear_share,
+                  100.0 * verdict->mode.oil_fraction, 100.0 * verdict->mode.gear_fraction,
                   verdict->oil_mode.frequency, verdict->oil_mode.damping_ratio,
-                  100.0 * verdict->oil_mode.oil_share)));
+                  100.0 * verdict->oil_mode.oil_fraction)));
   // Where the case says so it is compared with that mode, and with the oil that makes it.
   antenna.resonance->of_oil = true;
   const auto of_oil = resonance_verdict(antenna);
@@ -182,7 +182,7 @@ TEST(RingsAsRigid, NeedsTheOilInTheMode) {
     antenna.resonance->of_oil = of_oil;
     EXPECT_FALSE(rings_as_rigid(antenna));
     EXPECT_EQ(of_resonance(antenna), 0);
-    for (const auto& choice : plant_choices(antenna)) {
+    for (const auto& choice : plant_interpretations(antenna)) {
       EXPECT_THAT(choice.result.says, Not(HasSubstr("rigid masses")));
     }
   }

@@ -43,7 +43,7 @@ Report tuned_report() {
   section.structure = LoopStructure::pi_with_lag();
   section.design = design_of(0.5);
   section.design_speed = 12.0;
-  section.supply_wind_speed = 25.7;
+  section.torque_limited_wind_speed = 25.7;
   section.static_bending = 1.5 * millidegree;
   section.wind_alternatives = {{plant::WindModel::uniform, 1e-5}};
   report.tuning = std::move(section);
@@ -76,9 +76,9 @@ TEST(TuningVerdict, EndsWhereTheSupplysTorqueEnds) {
             "friction and offset leave");
   EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met up to 20.0 m/s");
   EXPECT_EQ(reached_wind_speed(*report.tuning, budgets[2]), 25.7);
-  report.tuning->supply_wind_speed = std::numeric_limits<double>::infinity();
+  report.tuning->torque_limited_wind_speed = std::numeric_limits<double>::infinity();
   EXPECT_EQ(met_text(*report.tuning, budgets[2]), "is met up to the 60 m/s studied");
-  report.tuning->supply_wind_speed = 0.0;  // friction takes it all
+  report.tuning->torque_limited_wind_speed = 0.0;  // friction takes it all
   EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met in no wind");
 }
 
@@ -93,7 +93,7 @@ TEST(TuningVerdict, GivesTheShareOfTheClimatesTime) {
             "is met up to 16.0 m/s, beyond the climate's highest speed of 10 m/s");
   EXPECT_THAT(decision(report).front(), HasSubstr("9.1 m/s (75 % of the time)"));
   // The supply ends before the law does.
-  section.supply_wind_speed = 7.0;
+  section.torque_limited_wind_speed = 7.0;
   EXPECT_THAT(met_text(section, section.budgets[2]),
               AllOf(HasSubstr("up to the 7.0 m/s"), HasSubstr("(75 % of the time)")));
   EXPECT_THAT(to_text(document_of(section)),
@@ -135,7 +135,7 @@ TEST(TuningVerdict, SaysOnHowManyPlantsANeedIsMet) {
   Report report = tuned_report();
   design::EnsembleResult ensemble;
   ensemble.members.resize(30);
-  ensemble.stable = ensemble.within_goals = 30;
+  ensemble.stable = ensemble.within_constraints = 30;
   report.tuning->ensemble = ensemble;
   report.tuning->budgets = {budget(1.0, 16.9, 12.0), budget(2.0, 30.0)};
   report.tuning->budgets[0].plants_met = 24;
@@ -163,9 +163,9 @@ TEST(TuningVerdict, SaysThatANeedIsNotMet) {
   EXPECT_THAT(decided.front(), StartsWith("NOT MET"));
   EXPECT_THAT(decided, Each(Not(HasSubstr("Run the drive"))));
   report.tuning->present.clear();
-  report.tuning->supply_wind_speed = 11.0;
+  report.tuning->torque_limited_wind_speed = 11.0;
   EXPECT_THAT(decision(report).front(), HasSubstr("No loop structure changes that"));
-  report.tuning->supply_wind_speed = 25.7;
+  report.tuning->torque_limited_wind_speed = 25.7;
   report.tuning->budgets = {budget(1.0, 16.9, 12.0)};
   EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain), IsEmpty());
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive as built on PI with lag"));
@@ -187,12 +187,12 @@ TEST(TuningVerdict, GivesSpeedsOfBudgetsAtTheMastToo) {
                     HasSubstr("8.09 (7)")));
 }
 
-TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
+TEST(TuningVerdict, SaysOnHowManyPlantsTheControllerHolds) {
   Report report = tuned_report();
   design::EnsembleResult ensemble;
   ensemble.members.resize(30);
   ensemble.stable = 29;
-  ensemble.within_goals = 6;
+  ensemble.within_constraints = 6;
   report.tuning->ensemble = ensemble;
   EXPECT_THAT(tuning_conclusions(report),
               Contains(HasSubstr("With these gains only 6 of 30 perturbed plant models meet the "
@@ -205,7 +205,7 @@ TEST(TuningVerdict, SaysOnHowManyPlantsTheLawHolds) {
                     Each(Not(HasSubstr("Do not install")))));
   report.tuning->fitness = design::Fitness::misses_member;
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
-  report.tuning->ensemble->stable = report.tuning->ensemble->within_goals = 30;
+  report.tuning->ensemble->stable = report.tuning->ensemble->within_constraints = 30;
   EXPECT_THAT(tuning_conclusions(report),
               Contains(HasSubstr("all 30 perturbed plant models meet the constraints.")));
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("perturbed plant models"))));
@@ -221,15 +221,15 @@ TEST(TuningVerdict, SaysOnWhatAVerdictOnABudgetRests) {
   section.options.settled_error = section.options.tightest_budget = 0.5 * millidegree;
   section.wind_speed = 12.0;
   section.result.wind.predicted_rms = 0.49 * millidegree;
-  section.result.wind.beam_rms = 0.51 * millidegree;
+  section.result.wind.boresight_rms = 0.51 * millidegree;
   EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
               ElementsAre(HasSubstr("11.5 m/s, by simulation (0.510 mdeg in 12 m/s).")));
   // The rms of several records counts, and the limit cycle is named.
   section.rms.emplace().rms.value = 0.48 * millidegree;
-  design::HuntingResult rest;
+  design::LimitCycleResult rest;
   rest.limit_cycle = true;
-  rest.beam_amplitude = 0.3 * millidegree;
-  section.result.hunting = {rest};
+  rest.boresight_amplitude = 0.3 * millidegree;
+  section.result.limit_cycles = {rest};
   EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
               ElementsAre(HasSubstr("by simulation (0.480 mdeg in 12 m/s, limit cycle of +-0.30 "
                                     "mdeg).")));
@@ -239,7 +239,7 @@ TEST(TuningVerdict, SaysOnWhatAVerdictOnABudgetRests) {
   EXPECT_THAT(decision(report).front(), HasSubstr("is met up to 12.5 m/s, by simulation (0.480"));
   // A run that was lost leaves none.
   section.rms.reset();
-  section.result.wind.beam_rms = std::numeric_limits<double>::quiet_NaN();
+  section.result.wind.boresight_rms = std::numeric_limits<double>::quiet_NaN();
   report.tuning->budgets = {budget(0.5, 0.0, 12.0)};
   EXPECT_THAT(unmet_needs(*report.tuning, report.time_domain),
               ElementsAre(HasSubstr("it is met in no wind, as the controller does not complete the "
@@ -250,34 +250,34 @@ TEST(TuningVerdict, SaysOnWhatAVerdictOnABudgetRests) {
                     Not(HasSubstr("Run the drive"))));
 }
 
-TEST(TuningVerdict, RunsNoDriveThatHunts) {
+TEST(TuningVerdict, RunsNoDriveThatLimitCycles) {
   Report report = tuned_report();
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
   TimeDomainSection& section = report.time_domain.emplace();
   section.options.settled_error = section.options.tightest_budget = 0.5 * millidegree;
-  design::HuntingResult rest;
+  design::LimitCycleResult rest;
   rest.limit_cycle = true;
-  rest.beam_amplitude = 0.7 * millidegree;
-  section.result.hunting = {rest};
+  rest.boresight_amplitude = 0.7 * millidegree;
+  section.result.limit_cycles = {rest};
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
-  section.result.hunting[0].beam_amplitude = 0.8 * millidegree;
+  section.result.limit_cycles[0].boresight_amplitude = 0.8 * millidegree;
   EXPECT_THAT(
       reservations(report),
       Contains(HasSubstr("it has a limit cycle of +-0.80 mdeg, beyond the tightest budget of "
                          "0.500")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
-  section.result.hunting[0] = {};
-  section.result.hunting[0].status = design::RunStatus::lost;
+  section.result.limit_cycles[0] = {};
+  section.result.limit_cycles[0].status = design::RunStatus::lost;
   EXPECT_THAT(reservations(report), Contains(HasSubstr("was not shown free of limit cycles")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
 }
 
 TEST(TuningVerdict, SaysWhereNoLoopHelps) {
   Report report = tuned_report();
-  report.tuning->encoder_held_rms = 0.44 * millidegree;
+  report.tuning->flexure_rms = 0.44 * millidegree;
   EXPECT_THAT(tuning_conclusions(report),
               Each(Not(HasSubstr("structural flexure beyond the encoder"))));
-  report.tuning->encoder_held_rms = 0.46 * millidegree;
+  report.tuning->flexure_rms = 0.46 * millidegree;
   EXPECT_THAT(tuning_conclusions(report),
               Contains(HasSubstr("structural flexure beyond the encoder")));
   EXPECT_THAT(reservations(report), Contains(HasSubstr("structural flexure beyond the encoder")));
@@ -325,13 +325,13 @@ TEST(TuningVerdict, SaysWhatItDoesNotKnow) {
 TEST(TuningVerdict, SaysWhatHangsOnGuessesOfWindAndBeam) {
   Report report = tuned_report();
   report.tuning->budgets = {budget(0.55, 12.0, 12.0)};
-  report.choices.resize(3);
+  report.interpretations.resize(3);
   const std::array<double, 3> rms{0.5, 0.55, 0.45}, speeds{12.0, 10.9, 99.0};
   for (std::size_t i = 0; i < rms.size(); ++i) {
-    report.choices[i].name = fmt::format("choice {}", i);
-    report.choices[i].design = design_of(rms.at(i));
-    report.choices[i].speed_limits = {speeds.at(i)};
-    report.choices[i].other_shares = i > 0;
+    report.interpretations[i].name = fmt::format("choice {}", i);
+    report.interpretations[i].design = design_of(rms.at(i));
+    report.interpretations[i].speed_limits = {speeds.at(i)};
+    report.interpretations[i].other_fractions = i > 0;
   }
   EXPECT_THAT(reservations(report),
               Contains(AllOf(
@@ -341,28 +341,28 @@ TEST(TuningVerdict, SaysWhatHangsOnGuessesOfWindAndBeam) {
   // Neither another verdict nor far apart.
   report.tuning->budgets = {budget(0.55, 12.0, 10.0)};
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("participation of wind torque"))));
-  report.choices[2].design = design_of(0.39);
+  report.interpretations[2].design = design_of(0.39);
   EXPECT_THAT(
       reservations(report),
       Contains(AllOf(HasSubstr("The modal participation of wind torque and boresight is assumed"),
                      HasSubstr("0.390 with 'choice 2'. A structural model"))));
   // Beyond the supply's torque none is met.
   report.tuning->budgets = {budget(0.55, 99.0, 26.0)};
-  report.choices[2].design = design_of(0.45);
+  report.interpretations[2].design = design_of(0.45);
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("participation of wind torque"))));
 }
 
 TEST(TuningVerdict, SaysWhichOtherChoiceTurnsAVerdictRound) {
   Report report = tuned_report();
   report.tuning->budgets = {budget(0.55, 12.0, 12.0)};
-  report.choices.resize(2);
-  report.choices[0].design = design_of(0.5);
+  report.interpretations.resize(2);
+  report.interpretations[0].design = design_of(0.5);
   // The case's own plant, tuned as the others are.
-  report.choices[0].name = "reference";
-  report.choices[0].speed_limits = {12.0};
-  report.choices[1].name = "antenna of the drawings";
-  report.choices[1].design = design_of(0.6);
-  report.choices[1].speed_limits = {11.0};
+  report.interpretations[0].name = "reference";
+  report.interpretations[0].speed_limits = {12.0};
+  report.interpretations[1].name = "antenna of the drawings";
+  report.interpretations[1].design = design_of(0.6);
+  report.interpretations[1].speed_limits = {11.0};
   const auto turned =
       Contains(HasSubstr("Re-tuned for alternative interpretations of the case, need (Ka: 0.550 "
                          "mdeg) is not met up to its required wind speed with 'antenna of the "
@@ -370,18 +370,18 @@ TEST(TuningVerdict, SaysWhichOtherChoiceTurnsAVerdictRound) {
   EXPECT_THAT(reservations(report), turned);
   EXPECT_THAT(tuning_conclusions(report), turned);
   // What is there too is no other reading.
-  report.choices[1].other_attitude = true;
+  report.interpretations[1].other_attitude = true;
   const auto attitude = Contains(
       HasSubstr("Re-tuned for the antenna's other attitudes, need (Ka: 0.550 mdeg) is not met"));
   EXPECT_THAT(reservations(report), AllOf(attitude, Not(turned)));
   EXPECT_THAT(tuning_conclusions(report), AllOf(attitude, Not(turned)));
-  report.choices[1].other_attitude = false;
-  report.choices[1].speed_limits = {12.1};
+  report.interpretations[1].other_attitude = false;
+  report.interpretations[1].speed_limits = {12.1};
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("the opposite verdict"))));
   // No way out of a contradiction says nothing of budgets.
-  report.choices[1].speed_limits = {11.0};
-  report.choices[1].wanted_frequency = 1.0;
-  report.choices[1].resonance = 0.5;
+  report.interpretations[1].speed_limits = {11.0};
+  report.interpretations[1].wanted_frequency = 1.0;
+  report.interpretations[1].resonance = 0.5;
   EXPECT_THAT(reservations(report), Each(Not(HasSubstr("the opposite verdict"))));
 }
 

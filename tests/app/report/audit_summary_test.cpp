@@ -33,10 +33,10 @@ design::Finding finding_of(const std::string& id, double change) {
   finding.id = id;
   finding.forms.resize(1);
   finding.forms[0].text = "1.2 kg.m2";
-  finding.consequences.resize(1);
-  finding.consequences[0].id = "motor_to_load_ratio";
-  finding.consequences[0].as_printed = 1.0 + change;
-  finding.consequences[0].as_corrected = 1.0;
+  finding.derived_quantities.resize(1);
+  finding.derived_quantities[0].id = "motor_to_load_ratio";
+  finding.derived_quantities[0].as_printed = 1.0 + change;
+  finding.derived_quantities[0].as_corrected = 1.0;
   return finding;
 }
 

@@ -30,27 +30,28 @@ EvaluateSection proposals_of(const std::vector<std::pair<double, double>>& costs
   EvaluateSection section;
   section.currency = "kEUR";
   section.wind_speed = 12.0;
-  DecisionSection draws;
-  draws.draws = 2000;
+  DecisionSection random_samples;
+  random_samples.random_samples = 2000;
   for (std::size_t i = 0; i < costs_and_means.size(); ++i) {
     Candidate candidate;
     candidate.name = i == 0 ? "as it is" : "proposal " + std::to_string(i);
     if (i > 0) candidate.path = "proposal.toml";
     candidate.cost = costs_and_means[i].first;
-    CandidateLaw law;
-    law.goals_met = true;
-    law.design.tuning.status = design::TuningStatus::optimal;
-    law.design.verification.passed = true;
-    law.member_rms = costs_and_means[i].second * millidegree;
-    candidate.laws = {law};
+    CandidateController controller;
+    controller.constraints_met = true;
+    controller.design.tuning.status = design::TuningStatus::optimal;
+    controller.design.verification.passed = true;
+    controller.member_rms = costs_and_means[i].second * millidegree;
+    candidate.controllers = {controller};
     candidate.chosen = 0U;
     section.candidates.push_back(std::move(candidate));
-    draws.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
-    draws.statistics.options.emplace_back().mean = costs_and_means[i].second;
-    if (costs_and_means[i].second < costs_and_means[draws.best].second) draws.best = i;
+    random_samples.candidates.push_back({.candidate = i, .unstable = {}, .outside_goals = {}});
+    random_samples.statistics.options.emplace_back().mean = costs_and_means[i].second;
+    if (costs_and_means[i].second < costs_and_means[random_samples.best].second)
+      random_samples.best = i;
     section.front.push_back(i);
   }
-  section.decision = std::move(draws);
+  section.decision = std::move(random_samples);
   rank(section);
   return section;
 }
@@ -136,16 +137,17 @@ TEST(EvaluateDecision, HasNoFrontWithoutCosts) {
 TEST(EvaluateDecision, ChoosesNothingThatHunts) {
   auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
   ASSERT_TRUE(section.decision);
-  const auto make_hunt = [&](std::size_t i) {
-    CandidateLaw& law = section.candidates[i].laws[0];
-    law.still = false;
-    design::HuntingResult rest;
+  const auto make_limit_cycle = [&](std::size_t i) {
+    CandidateController& controller = section.candidates[i].controllers[0];
+    controller.limit_cycle_free = false;
+    design::LimitCycleResult rest;
     rest.limit_cycle = true;
-    rest.beam_amplitude = 3.03 * millidegree;
-    law.time_domain.emplace().hunting = {rest};
-    law.time_domain->wind.beam_rms = law.time_domain->wind.predicted_rms = law.member_rms;
+    rest.boresight_amplitude = 3.03 * millidegree;
+    controller.time_domain.emplace().limit_cycles = {rest};
+    controller.time_domain->wind.boresight_rms = controller.time_domain->wind.predicted_rms =
+        controller.member_rms;
   };
-  make_hunt(2);
+  make_limit_cycle(2);
   rank(section);
   EXPECT_EQ(section.decision->worth, 1U);
   EXPECT_THAT(decision(section).front(),
@@ -159,13 +161,13 @@ TEST(EvaluateDecision, ChoosesNothingThatHunts) {
       conclude(section),
       Contains(HasSubstr(
           "Excluded, limit cycle beyond the tightest budget: proposal 2 with  (+-3.03 mdeg)")));
-  make_hunt(1);
+  make_limit_cycle(1);
   rank(section);
   EXPECT_THAT(
       decision(section).front(),
       HasSubstr("All proposals have a limit cycle beyond the tightest budget, unlike the antenna "
                 "as it is: none is chosen. The antenna as it is has 0.640 mdeg rms"));
-  make_hunt(0);
+  make_limit_cycle(0);
   rank(section);
   const std::string none =
       "All proposals have a limit cycle beyond the tightest budget, as does the antenna as it is: "
@@ -184,7 +186,7 @@ TEST(EvaluateDecision, ChoosesNothingThatHunts) {
 TEST(EvaluateDecision, NamesTheTestThatIsWorthItsTime) {
   auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
   section.decision->inputs = {"leakage rate", "oil stiffness"};
-  design::TestValue tests{
+  design::SampleInformation tests{
       .choice = 1, .mean_loss = {0.64, 0.5}, .perfect = {.gain = 0.02}, .inputs = {}};
   tests.inputs = {{.fitted = {.gain = 0.001}, .held_out_gain = 0.0, .held_out_error = 0.001},
                   {.fitted = {.gain = 0.012}, .held_out_gain = 0.01, .held_out_error = 0.001}};
@@ -209,7 +211,7 @@ TEST(EvaluateDecision, NamesProposalsThatDifferNegligibly) {
   EXPECT_THAT(decision(alike), Contains(HasSubstr("choose by their other effects")));
   // One alone is like no other: nothing is said of all.
   auto single = alike;
-  single.candidates[1].laws[0].goals_met = false;
+  single.candidates[1].controllers[0].constraints_met = false;
   EXPECT_THAT(decision(single), Each(Not(HasSubstr("choose by their other effects"))));
   const auto apart = proposals_of({{0.0, 0.64}, {60.0, 0.5}});
   EXPECT_THAT(decision(apart), Contains(HasSubstr("violates a constraint on a fraction of")));

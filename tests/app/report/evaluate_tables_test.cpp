@@ -24,9 +24,9 @@ TEST(EvaluateTables, NameTestsThatAreWorthNothingWithoutRowsOfZeros) {
   DecisionSection decision;
   decision.candidates.resize(1);
   decision.statistics.options.resize(1);
-  decision.front_shares = {1.0};
+  decision.front_fractions = {1.0};
   decision.inputs = {"leakage", "oil stiffness", "bearing"};
-  design::TestValue tests;
+  design::SampleInformation tests;
   tests.inputs.resize(3);
   tests.inputs[0].fitted = {3e-4, 1e-5};
   // A held-out gain may be negative.
@@ -44,8 +44,8 @@ TEST(EvaluateTables, LeaveOutWhatFollowsByLessThanTheDigitsPrinted) {
   Candidate& candidate = section.candidates[0];
   candidate.name = "filter";
   candidate.path = "filter.toml";
-  candidate.consequences = {{"dead time", "s", 0.03, 0.015, "samples", ""},
-                            {"gear ratio", "1", 28730.0, 28730.0001, "teeth", ""}};
+  candidate.derived_quantities = {{"dead time", "s", 0.03, 0.015, "samples", ""},
+                                  {"gear ratio", "1", 28730.0, 28730.0001, "teeth", ""}};
   const std::string text = to_text(document_of(section));
   EXPECT_THAT(text, AllOf(HasSubstr("dead time"), Not(HasSubstr("gear ratio"))));
   // Without a [cost] the cell is empty, and nothing is said of a currency.
@@ -75,11 +75,11 @@ TEST(EvaluateTables, NameTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
     candidate.name = name;
     candidate.oil_mode.frequency = frequency;
     candidate.oil_mode.damping_ratio = 0.03;
-    candidate.oil_mode.oil_share = 0.8;
-    candidate.laws.resize(1);
+    candidate.oil_mode.oil_fraction = 0.8;
+    candidate.controllers.resize(1);
     candidate.chosen = 0;
-    plant::PlantMode& mode = candidate.laws[0].design.hydraulic_mode;
-    mode.oil_share = 0.06;
+    plant::PlantMode& mode = candidate.controllers[0].design.hydraulic_mode;
+    mode.oil_fraction = 0.06;
     return mode;
   };
   const auto told = [&] { return on_one_line(to_text(document_of(section))); };
@@ -91,9 +91,9 @@ TEST(EvaluateTables, NameTheModeOfMostOilWhereTheHydraulicModeHasLittle) {
                     HasSubstr("Less than half of the hydraulic mode's elastic energy is in the "
                               "oil; the dominant hydraulic mode is at 6.02 Hz (zeta 0.030) as it "
                               "is, 22.3 Hz (zeta 0.030) with 'no flywheels'.")));
-  bare.oil_share = 0.7;
+  bare.oil_fraction = 0.7;
   EXPECT_THAT(told(), HasSubstr("mode is at 6.02 Hz (zeta 0.030) as it is."));
-  section.candidates[0].oil_mode.oil_share = 0.06;
+  section.candidates[0].oil_mode.oil_fraction = 0.06;
   EXPECT_THAT(told(), Not(HasSubstr("dominant hydraulic mode")));
 }
 
@@ -103,10 +103,10 @@ TEST(EvaluateTables, StandUnderTheHeadingThatFiguresName) {
   section.wind_speed = 12.1419;
   section.candidates.resize(1);
   Candidate& candidate = section.candidates[0];
-  candidate.laws.resize(1);
+  candidate.controllers.resize(1);
   candidate.gains.resize(1);
   candidate.chosen = 0;
-  candidate.laws[0].ensemble.emplace().members.resize(1);
+  candidate.controllers[0].ensemble.emplace().members.resize(1);
   const auto figures = evaluate_figures(section);
   ASSERT_EQ(figures.size(), 1U);
   const std::string text = to_text(document_of(section));

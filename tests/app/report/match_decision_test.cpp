@@ -30,8 +30,8 @@ MatchSeries series_of(const std::string& name, const std::vector<double>& rms_md
   for (const double one : rms_mdeg) {
     MatchValue value;
     value.found = true;
-    value.beam_rms = one * millidegree;
-    rms.push_back(value.beam_rms);
+    value.boresight_rms = one * millidegree;
+    rms.push_back(value.boresight_rms);
     series.values.push_back(std::move(value));
   }
   series.best = design::least_of(rms);
@@ -52,7 +52,7 @@ MatchSection section_of(std::vector<MatchSeries> series) {
                    .disks = 1.0,
                    .cost = {}};
   for (const auto& one : section.series) {
-    rule.cost.push_back(one.values[1].beam_rms / one.values[*one.best].beam_rms - 1.0);
+    rule.cost.push_back(one.values[1].boresight_rms / one.values[*one.best].boresight_rms - 1.0);
   }
   section.rules.push_back(std::move(rule));
   return section;
@@ -75,13 +75,13 @@ TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
   section.thresholds = {threshold_of(0.002)};
   for (auto& series : section.series) {
     MatchTimeDomain run;
-    design::HuntingResult at_rest, tracking;
+    design::LimitCycleResult at_rest, tracking;
     at_rest.limit_cycle = series.name != "LL";
     tracking.rate = section.tracking_rate;
     tracking.limit_cycle = series.name != "LL";
-    run.hunting = {at_rest, tracking};
+    run.limit_cycles = {at_rest, tracking};
     run.reversal = design::ReversalResult{};
-    run.reversal->beam_error = 2.0 * millidegree;
+    run.reversal->boresight_error = 2.0 * millidegree;
     series.values[0].time_domain = run;
   }
   const auto sentences = conclude(section);
@@ -100,10 +100,10 @@ TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
 
 TEST(MatchConclusions, GiveTheErrorOfTheBeamWhereTheRateReverses) {
   MatchSection section = section_of({series_of("PI", {0.4, 0.5, 0.6})});
-  const auto reverse = [&](std::size_t point, double encoder_mdeg, double beam_mdeg) {
+  const auto reverse = [&](std::size_t point, double encoder_mdeg, double boresight_mdeg) {
     design::ReversalResult reversal;
     reversal.encoder_error = encoder_mdeg * millidegree;
-    reversal.beam_error = beam_mdeg * millidegree;
+    reversal.boresight_error = boresight_mdeg * millidegree;
     section.series[0].values[point].time_domain = MatchTimeDomain{{}, reversal};
   };
   reverse(0, 2.84, 5.2);
@@ -170,19 +170,19 @@ TEST(MatchDecision, AsksForTheFrictionSlopeOnlyWhereItDecides) {
 }
 
 // Runs every point on the nonlinear antenna: a limit cycle of that amplitude at rest.
-MatchSeries hunting(MatchSeries series, double amplitude_mdeg) {
-  design::HuntingResult rest;
+MatchSeries limit_cycles(MatchSeries series, double amplitude_mdeg) {
+  design::LimitCycleResult rest;
   rest.limit_cycle = amplitude_mdeg > 0.0;
-  rest.beam_amplitude = amplitude_mdeg * millidegree;
+  rest.boresight_amplitude = amplitude_mdeg * millidegree;
   for (auto& value : series.values) value.time_domain = MatchTimeDomain{{rest}, {}};
   return series;
 }
 
-TEST(MatchDecision, PutsNoStructureFirstThatHuntsBeyondTheBudget) {
+TEST(MatchDecision, PutsNoStructureFirstThatLimitCyclesBeyondTheBudget) {
   const auto with = [](double amplitude_mdeg) {
     MatchSection section =
-        section_of({hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1),
-                    hunting(series_of("DPF+C", {0.1, 0.11, 0.12}), amplitude_mdeg)});
+        section_of({limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 0.1),
+                    limit_cycles(series_of("DPF+C", {0.1, 0.11, 0.12}), amplitude_mdeg)});
     section.tightest_budget = 0.5 * millidegree;
     return decision(section);
   };
@@ -194,16 +194,16 @@ TEST(MatchDecision, PutsNoStructureFirstThatHuntsBeyondTheBudget) {
   EXPECT_THAT(barred, Contains(HasSubstr("Not DPF+C, 0.100 mdeg on the linear plant: on the "
                                          "nonlinear antenna it limit-cycles by +-0.71 mdeg")));
   EXPECT_THAT(barred, Each(Not(HasSubstr("change the loops first"))));
-  MatchSection alone = section_of({hunting(series_of("PI", {0.4, 0.5, 0.6}), 3.0)});
+  MatchSection alone = section_of({limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 3.0)});
   alone.tightest_budget = 0.5 * millidegree;
   EXPECT_THAT(decision(alone),
               ElementsAre(HasSubstr("is shown free of limit cycles beyond the tightest budget")));
 }
 
 // Still at every other point.
-MatchSeries hunting_as_built(MatchSeries series, double amplitude_mdeg) {
-  MatchSeries result = hunting(std::move(series), 0.0);
-  result.values[1] = hunting(result, amplitude_mdeg).values[1];
+MatchSeries limit_cycle_as_built(MatchSeries series, double amplitude_mdeg) {
+  MatchSeries result = limit_cycles(std::move(series), 0.0);
+  result.values[1] = limit_cycles(result, amplitude_mdeg).values[1];
   return result;
 }
 
@@ -213,11 +213,11 @@ MatchSection within_half_a_millidegree(std::vector<MatchSeries> series) {
   return section;
 }
 
-TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotHunt) {
-  for (const auto& third : {hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0),
-                            hunting_as_built(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}) {
+TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotLimitCycle) {
+  for (const auto& third : {limit_cycles(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0),
+                            limit_cycle_as_built(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}) {
     const auto sentences =
-        conclude(within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.42, 0.44}), 0.1),
+        conclude(within_half_a_millidegree({limit_cycles(series_of("PI", {0.4, 0.42, 0.44}), 0.1),
                                             series_of("LL", {0.4, 0.5, 0.5}), third}));
     EXPECT_THAT(sentences,
                 Contains(AllOf(HasSubstr("the rms changes most with LL, by 25 %"),
@@ -226,45 +226,45 @@ TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotHunt) {
   }
   EXPECT_THAT(
       conclude(within_half_a_millidegree({series_of("PI", {0.5, 0.501, 0.502}),
-                                          hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)})),
+                                          limit_cycles(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)})),
       Contains(HasSubstr("by more than 0.4 %: the motors' inertia hardly matters here")));
 }
 
-TEST(MatchConclusions, WeighNothingWhereAllHunt) {
+TEST(MatchConclusions, WeighNothingWhereAllLimitCycle) {
   const auto sentences =
-      conclude(within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), 1.0),
-                                          hunting(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}));
+      conclude(within_half_a_millidegree({limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 1.0),
+                                          limit_cycles(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}));
   EXPECT_THAT(sentences, Contains(HasSubstr("examine friction before the motors")));
   EXPECT_THAT(sentences, Each(AllOf(Not(HasSubstr("changes most with")),
                                     Not(HasSubstr("good rule")), Not(HasSubstr("hardly")))));
 }
 
 MatchSeries lost_at(MatchSeries series, std::size_t point) {
-  design::HuntingResult run;
+  design::LimitCycleResult run;
   run.status = design::RunStatus::lost;
   series.values[point].time_domain = MatchTimeDomain{{run}, {}};
   return series;
 }
 
-TEST(MatchDecision, TellsNoHuntingThatWasNotSeen) {
-  const MatchSeries calm = hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
-  const MatchSeries still = hunting(series_of("DPF", {0.3, 0.31, 0.32}), 0.1);
-  EXPECT_THAT(decision(within_half_a_millidegree({calm, lost_at(still, 1)})),
+TEST(MatchDecision, TellsNoLimitCycleThatWasNotSeen) {
+  const MatchSeries calm = limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
+  const MatchSeries limit_cycle_free = limit_cycles(series_of("DPF", {0.3, 0.31, 0.32}), 0.1);
+  EXPECT_THAT(decision(within_half_a_millidegree({calm, lost_at(limit_cycle_free, 1)})),
               Contains(HasSubstr("As built, these loops are not shown free of limit cycles")));
-  EXPECT_THAT(decision(within_half_a_millidegree({lost_at(still, 0)})),
+  EXPECT_THAT(decision(within_half_a_millidegree({lost_at(limit_cycle_free, 0)})),
               ElementsAre(HasSubstr(
                   "No structure that meets the constraints is shown free of limit cycles")));
   EXPECT_THAT(
-      decision(within_half_a_millidegree({calm, lost_at(still, 0)})),
+      decision(within_half_a_millidegree({calm, lost_at(limit_cycle_free, 0)})),
       Contains(HasSubstr("Not DPF, 0.300 mdeg on the linear plant: on the nonlinear antenna it is "
                          "not shown free of limit cycles, as a run did not complete.")));
 }
 
-TEST(MatchDecision, MeasuresNoFrictionForStructuresThatHunt) {
+TEST(MatchDecision, MeasuresNoFrictionForStructuresThatLimitCycle) {
   const auto with = [](double amplitude_mdeg) {
     MatchSection section =
-        within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), amplitude_mdeg),
-                                   hunting(series_of("DPF", {0.3, 0.4, 0.5}), 0.1)});
+        within_half_a_millidegree({limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), amplitude_mdeg),
+                                   limit_cycles(series_of("DPF", {0.3, 0.4, 0.5}), 0.1)});
     section.tracking_friction = 4.0;
     section.thresholds = {threshold_of(0.5)};
     auto sentences = decision(section);
@@ -277,37 +277,37 @@ TEST(MatchDecision, MeasuresNoFrictionForStructuresThatHunt) {
                                     Not(HasSubstr("With PI, if the friction slope")))));
 }
 
-TEST(MatchConclusions, NameTheStructuresThatHuntAndByHowMuch) {
+TEST(MatchConclusions, NameTheStructuresThatLimitCycleAndByHowMuch) {
   const auto with = [](const MatchSeries& second) {
     return conclude(
-        within_half_a_millidegree({hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1), second}));
+        within_half_a_millidegree({limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 0.1), second}));
   };
   const MatchSeries series = series_of("DPF+C", {0.1, 0.3, 0.4});
   EXPECT_THAT(
-      with(hunting(series, 3.0)),
+      with(limit_cycles(series, 3.0)),
       Contains(AllOf(HasSubstr("limit-cycle beyond the tightest budget of 0.500 mdeg rms"),
                      HasSubstr(": as built DPF+C (+-3.00 mdeg); with its best motors DPF+C (+-3.00 "
                                "mdeg at 0 disks). They are excluded from the comparisons"))));
-  EXPECT_THAT(with(hunting_as_built(series, 3.0)),
+  EXPECT_THAT(with(limit_cycle_as_built(series, 3.0)),
               Contains(HasSubstr(": as built DPF+C (+-3.00 mdeg). They are excluded")));
-  EXPECT_THAT(with(hunting(series, 0.7)), Each(Not(HasSubstr("tightest budget"))));
+  EXPECT_THAT(with(limit_cycles(series, 0.7)), Each(Not(HasSubstr("tightest budget"))));
   EXPECT_THAT(with(lost_at(series, 1)),
               Contains(AllOf(HasSubstr("Freedom from limit cycles is not shown for DPF+C"),
                              Not(HasSubstr("+-")))));
   // Seen to hunt in one run, it is known enough.
-  MatchSeries seen = hunting(series, 3.0);
-  design::HuntingResult lost;
+  MatchSeries seen = limit_cycles(series, 3.0);
+  design::LimitCycleResult lost;
   lost.status = design::RunStatus::lost;
-  for (auto& value : seen.values) value.time_domain->hunting.push_back(lost);
+  for (auto& value : seen.values) value.time_domain->limit_cycles.push_back(lost);
   EXPECT_THAT(with(seen), AllOf(Contains(HasSubstr("as built DPF+C (+-3.00 mdeg)")),
                                 Each(Not(HasSubstr("Freedom from limit cycles is not shown")))));
 }
 
-TEST(MatchDecision, WeighsNoLoopsThatHuntWithTheMotorsAsBuilt) {
-  const MatchSeries calm = hunting(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
+TEST(MatchDecision, WeighsNoLoopsThatLimitCycleWithTheMotorsAsBuilt) {
+  const MatchSeries calm = limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
   const auto text = [&](const std::vector<double>& rms) {
     return decision(
-        within_half_a_millidegree({calm, hunting_as_built(series_of("DPF", rms), 3.0)}))[1];
+        within_half_a_millidegree({calm, limit_cycle_as_built(series_of("DPF", rms), 3.0)}))[1];
   };
   EXPECT_THAT(
       text({0.7, 0.8, 0.9}),

@@ -24,7 +24,7 @@ using testing::StartsWith;
 
 design::Design tuned_design(double rms_mdeg) {
   design::Design design = design_of(rms_mdeg);
-  design.tuning.law = {control::LoopStructure::named("PI-0"), {0.15, 0.4, 8.0, 0.15}};
+  design.tuning.controller = {control::LoopStructure::named("PI-0"), {0.15, 0.4, 8.0, 0.15}};
   return design;
 }
 
@@ -40,10 +40,10 @@ Report report_of_test() {
   section.design_speed = 10.0;
   auto& ensemble = section.ensemble.emplace();
   ensemble.members.resize(30);
-  ensemble.stable = ensemble.within_goals = 30;
+  ensemble.stable = ensemble.within_constraints = 30;
   auto& run = report.time_domain.emplace();
   run.wind_speed = 10.0;
-  run.result.wind.beam_rms = 0.52 * millidegree;
+  run.result.wind.boresight_rms = 0.52 * millidegree;
   run.options.settled_error = run.options.tightest_budget = millidegree;
   return report;
 }

@@ -17,47 +17,47 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::vector<ChoiceResult> tuned_choices(std::size_t count) {
-  std::vector<ChoiceResult> choices(count);
-  for (auto& choice : choices) choice.design.emplace().beam_rms = 1e-5;
-  return choices;
+std::vector<InterpretationResult> tuned_choices(std::size_t count) {
+  std::vector<InterpretationResult> interpretations(count);
+  for (auto& choice : interpretations) choice.design.emplace().boresight_rms = 1e-5;
+  return interpretations;
 }
 
 TEST(Choices, SayWhichMissTheFrequencyThatTheyAreMadeFor) {
-  auto choices = tuned_choices(3);
+  auto interpretations = tuned_choices(3);
   const std::array<double, 3> frequencies{1.73, 1.034, 0.348};
-  for (std::size_t i = 0; i < choices.size(); ++i) {
-    choices[i].name = fmt::format("choice {}", i);
-    choices[i].resonance = frequencies.at(i);
-    if (i > 0) choices[i].wanted_frequency = 1.05;
+  for (std::size_t i = 0; i < interpretations.size(); ++i) {
+    interpretations[i].name = fmt::format("choice {}", i);
+    interpretations[i].resonance = frequencies.at(i);
+    if (i > 0) interpretations[i].wanted_frequency = 1.05;
   }
-  EXPECT_THAT(to_text(document_of(choices)),
+  EXPECT_THAT(to_text(document_of(interpretations)),
               HasSubstr("misses the measured 1.05 Hz: 'choice\n  2' (0.348 Hz)."));
-  choices.pop_back();
-  EXPECT_THAT(to_text(document_of(choices)), Not(HasSubstr("do not resolve")));
+  interpretations.pop_back();
+  EXPECT_THAT(to_text(document_of(interpretations)), Not(HasSubstr("do not resolve")));
 }
 
 TEST(Choices, SayWhatAHydraulicModeOfTwoRealPolesIs) {
-  auto choices = tuned_choices(1);
-  EXPECT_THAT(to_text(document_of(choices)), Not(HasSubstr("two real poles")));
-  choices[0].design->hydraulic_mode.damping_ratio = 1.05;
-  EXPECT_THAT(to_text(document_of(choices)), HasSubstr("two real poles"));
+  auto interpretations = tuned_choices(1);
+  EXPECT_THAT(to_text(document_of(interpretations)), Not(HasSubstr("two real poles")));
+  interpretations[0].design->hydraulic_mode.damping_ratio = 1.05;
+  EXPECT_THAT(to_text(document_of(interpretations)), HasSubstr("two real poles"));
 }
 
 TEST(Choices, AreContradictionsOnlyWhereSourcesOrTestsDiffer) {
-  std::vector<ChoiceResult> choices(2);
-  EXPECT_THAT(choices_heading(choices), HasSubstr("Open inputs"));
-  choices.emplace_back().contradicts = true;
-  EXPECT_THAT(choices_heading(choices), HasSubstr("Contradictory inputs"));
+  std::vector<InterpretationResult> interpretations(2);
+  EXPECT_THAT(interpretations_heading(interpretations), HasSubstr("Open inputs"));
+  interpretations.emplace_back().contradicts = true;
+  EXPECT_THAT(interpretations_heading(interpretations), HasSubstr("Contradictory inputs"));
 }
 
 TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
   IdentificationSection section;
   section.inertia.methods.resize(2);
   section.printed.resize(2);
-  section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 3.0}}, 0.4);
+  section.combined = identification::combine({{0.8, 0.02}, {7.9, 3.0}}, 0.4);
   EXPECT_THAT(to_text(document_of(section)), HasSubstr("Combined estimate: J = "));
-  section.reconciled = identification::reconcile({{0.8, 0.02}, {7.9, 0.8}}, 0.4);
+  section.combined = identification::combine({{0.8, 0.02}, {7.9, 0.8}}, 0.4);
   const std::string text = on_one_line(to_text(document_of(section)));
   EXPECT_THAT(text, HasSubstr("No combined estimate: the methods contradict one another "
                               "(Cochran's Q 78."));
@@ -73,8 +73,8 @@ TEST(IdentificationText, GivesSharesOfTheDrawsInFigures) {
   IdentificationSection section;
   section.inertia.methods.resize(1);
   section.printed.resize(1);
-  const auto with = [&](double share) {
-    section.inertia.methods.front().motor_to_load_ratio.beyond_pole = share;
+  const auto with = [&](double fraction) {
+    section.inertia.methods.front().motor_to_load_ratio.beyond_pole = fraction;
     return to_text(document_of(section));
   };
   EXPECT_THAT(with(0.998), HasSubstr("In 100 % of samples J < Jm"));
@@ -87,11 +87,11 @@ TEST(PlantText, GivesNoSignToAShareThatIsNothing) {
   plant::PlantMode mode;
   mode.frequency = 2.0;
   mode.pole = {-0.1, 12.0};
-  mode.oil_share = mode.oil_participation = 0.6;
-  mode.gear_share = -0.001;
+  mode.oil_fraction = mode.oil_participation = 0.6;
+  mode.gear_fraction = -0.001;
   section.modes = {mode};
   EXPECT_THAT(to_text(document_of(section)), Not(HasSubstr("-0.00")));
-  section.modes[0].gear_share = -0.02;
+  section.modes[0].gear_fraction = -0.02;
   EXPECT_THAT(to_text(document_of(section)), HasSubstr("-0.02"));
 }
 

@@ -22,11 +22,11 @@ struct TwiceDescribed {};
 void describe(io::Visitor& v, const SchemaPart& part) {
   v.defined_as("part", "A part.");
   v.number("angle", part.angle, io::key_units::degree_as_kept, "Its angle.",
-           {.least = 0.0, .finite = true});
+           {.minimum = 0.0, .finite = true});
 }
 
 void describe(io::Visitor& v, const SchemaResult& result) {
-  v.list("parts", result.parts, "All.", io::ListSize{.least = 1});
+  v.list("parts", result.parts, "All.", io::ListSize{.minimum = 1});
   v.object("best", result.best, "Null without one.");
   v.optional_members(result.extra, [&](double extra) {
     v.number("extra", extra, io::key_units::ratio, "Only where there is one.");

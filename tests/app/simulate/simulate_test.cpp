@@ -29,9 +29,10 @@ io::Case reference_case() {
 
 TEST(SimulatedTests, SayWhichControllerMovedTheAntenna) {
   const io::Case antenna = reference_case();
-  const control::ControlLaw law{control::LoopStructure::named("PI"), {0.15, 0.4, 2.6, 8.0, 0.15}};
+  const control::Controller controller{control::LoopStructure::named("PI"),
+                                       {0.15, 0.4, 2.6, 8.0, 0.15}};
   const auto section =
-      section_of(run_position_test(antenna, "slew", law, 1, {}), antenna, "of a report");
+      section_of(run_position_test(antenna, "slew", controller, 1, {}), antenna, "of a report");
   EXPECT_THAT(section.description, AllOf(StartsWith("1 deg by PI with lag, of a report at up to "),
                                          HasSubstr("deg/s and ")));
 }
@@ -58,15 +59,16 @@ TEST(SimulatedTests, NameTheCaseWhoseSupplyCannotMoveTheAntenna) {
   io::Case antenna = reference_case();
   antenna.friction_curve->coulomb.value = 400.0;
   antenna.friction_curve->breakaway.value = 400.0;
-  const control::ControlLaw law{control::LoopStructure::named("PI"), {0.15, 0.4, 2.6, 8.0, 0.15}};
+  const control::Controller controller{control::LoopStructure::named("PI"),
+                                       {0.15, 0.4, 2.6, 8.0, 0.15}};
   try {
-    run_position_test(antenna, "slew", law, 1, {});
+    run_position_test(antenna, "slew", controller, 1, {});
     ADD_FAILURE() << "it slews";
   } catch (const InfeasibleRequirement& error) {
     EXPECT_THAT(error.what(), StartsWith(antenna.path + ": the supply cannot slew this antenna"));
   }
   antenna.simulation.reset();
-  EXPECT_THROW(run_position_test(antenna, "tracking", law, 1, {}), InvalidInput);
+  EXPECT_THROW(run_position_test(antenna, "tracking", controller, 1, {}), InvalidInput);
 }
 
 TEST(SimulateCommand, NamesTheGainsThatAreNotThere) {

@@ -29,7 +29,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 TimeDomainSection section() {
   TimeDomainSection section;
-  section.law = "PI, robust";
+  section.controller = "PI, robust";
   section.wind_speed = 10.0;
   section.sample_time = 0.02;
   section.encoder_resolution = 0.3464 * mdeg;
@@ -38,37 +38,37 @@ TimeDomainSection section() {
   section.options.settled_error = section.options.tightest_budget = 0.527 * mdeg;
   auto& wind = section.result.wind;
   wind.predicted_rms = 0.5 * mdeg;
-  wind.chance = -0.01 * mdeg;
+  wind.realisation_error = -0.01 * mdeg;
   wind.sampling = 0.001 * mdeg;
-  wind.beam_rms = 0.6 * mdeg;
+  wind.boresight_rms = 0.6 * mdeg;
   wind.encoder_rms = 0.4 * mdeg;
   wind.influences = {
       {design::Influence::friction, design::RunStatus::complete, 0.52 * mdeg, 0.08 * mdeg},
       {design::Influence::gear, design::RunStatus::complete, 0.59 * mdeg, 0.01 * mdeg}};
-  wind.joint = 0.019 * mdeg;
-  design::HuntingResult rest;
+  wind.interaction = 0.019 * mdeg;
+  design::LimitCycleResult rest;
   rest.limit_cycle = true;
   rest.encoder_amplitude = 0.29 * mdeg;
-  rest.beam_amplitude = 0.295 * mdeg;
+  rest.boresight_amplitude = 0.295 * mdeg;
   rest.frequency = 0.0612;
   rest.persistence = 0.97;
   rest.starts = 3;
-  rest.starts_hunting = 2;
-  design::HuntingResult moving;
+  rest.starts_with_limit_cycle = 2;
+  design::LimitCycleResult moving;
   moving.rate = 4.17 * mdeg;
   moving.encoder_amplitude = 0.007 * mdeg;
   moving.starts = 3;
-  section.result.hunting = {rest, moving};
+  section.result.limit_cycles = {rest, moving};
   design::ReversalResult reversal;
   reversal.encoder_error = 4.98 * mdeg;
-  reversal.beam_error = 5.04 * mdeg;
+  reversal.boresight_error = 5.04 * mdeg;
   reversal.encoder_error_without_friction = 1.5 * mdeg;
   reversal.time_of_largest = 1.34;
   section.result.reversal = reversal;
   design::SlewResult slew;
   slew.distance = 1.0 * degree;
   slew.limits = {0.1 * degree, 0.03 * degree};
-  slew.within_reach = false;
+  slew.achievable_limits = false;
   slew.command_time = 13.3;
   slew.largest_error = 32.0 * mdeg;
   slew.overshoot = 13.0 * mdeg;
@@ -106,39 +106,39 @@ TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
   EXPECT_THAT(text, HasSubstr("24.16"));
 }
 
-TEST(TimeDomain, DecidesForALawThatHoldsStill) {
+TEST(TimeDomain, DecidesForAControllerThatHoldsStill) {
   auto chosen = section();
   EXPECT_EQ(decide(chosen), "");
   // One of less rms in wind that hunts beyond the budget of 0.527 mdeg, which is why it was passed
   // over.
-  auto hunting = chosen.result;
-  hunting.wind.beam_rms = 0.1 * mdeg;
-  hunting.hunting[0].beam_amplitude = 8.73 * mdeg;
-  chosen.candidates = {{"PI, robust", chosen.result}, {"DPF+C, robust", hunting}};
+  auto limit_cycles = chosen.result;
+  limit_cycles.wind.boresight_rms = 0.1 * mdeg;
+  limit_cycles.limit_cycles[0].boresight_amplitude = 8.73 * mdeg;
+  chosen.candidates = {{"PI, robust", chosen.result}, {"DPF+C, robust", limit_cycles}};
   EXPECT_THAT(decide(chosen),
               StartsWith("Not DPF+C, robust, with 0.500 mdeg on the linear plant: on the nonlinear "
                          "antenna it has 0.100 and has a limit cycle of +-8.73 mdeg"));
   // So is one that only the linear plant prefers, and one whose run in wind was lost.
-  chosen.candidates[1].result.wind.beam_rms = 5.0 * mdeg;
+  chosen.candidates[1].result.wind.boresight_rms = 5.0 * mdeg;
   EXPECT_EQ(decide(chosen), "");
   chosen.candidates[1].result.wind.predicted_rms = 0.4 * mdeg;
   EXPECT_THAT(decide(chosen), StartsWith("Not DPF+C, robust, with 0.400 mdeg on the linear plant"));
-  chosen.candidates[1].result.hunting = chosen.result.hunting;
+  chosen.candidates[1].result.limit_cycles = chosen.result.limit_cycles;
   EXPECT_EQ(decide(chosen), "");
   chosen.candidates[1].result.wind.status = design::RunStatus::lost;
-  chosen.candidates[1].result.wind.beam_rms = nan;
+  chosen.candidates[1].result.wind.boresight_rms = nan;
   EXPECT_THAT(decide(chosen), HasSubstr("its run did not complete (lost)"));
   // Where all do.
-  chosen.result = hunting;
+  chosen.result = limit_cycles;
   EXPECT_THAT(decide(chosen),
               HasSubstr("no controller that completes its run in wind is free of limit cycles"));
   EXPECT_THAT(decide(chosen), Not(HasSubstr("Recommended")));
   // A run that did not end has no amplitude.
-  chosen.result.hunting[0] = {};
-  chosen.result.hunting[0].status = design::RunStatus::lost;
+  chosen.result.limit_cycles[0] = {};
+  chosen.result.limit_cycles[0].status = design::RunStatus::lost;
   EXPECT_THAT(decide(chosen), HasSubstr("but was not shown free of limit cycles (a run"));
   auto lost = section();
-  lost.result.wind.beam_rms = nan;
+  lost.result.wind.boresight_rms = nan;
   EXPECT_THAT(
       decide(lost),
       HasSubstr("No controller completed its run on the nonlinear antenna in 10 m/s of wind"));
@@ -146,12 +146,12 @@ TEST(TimeDomain, DecidesForALawThatHoldsStill) {
 
 TEST(TimeDomain, RecommendsByRmsAndLimitCycleTogether) {
   const double error = 0.527 * mdeg;
-  const auto candidate = [&](double rms, double hunting) {
+  const auto candidate = [&](double rms, double limit_cycles) {
     auto result = section().result;
-    result.wind.beam_rms = rms * mdeg;
-    result.hunting[0].beam_amplitude = hunting * mdeg;
-    result.hunting[0].limit_cycle = hunting > 0.0;
-    return assessment_of({"law", {}}, result, std::nullopt, error);
+    result.wind.boresight_rms = rms * mdeg;
+    result.limit_cycles[0].boresight_amplitude = limit_cycles * mdeg;
+    result.limit_cycles[0].limit_cycle = limit_cycles > 0.0;
+    return assessment_of({"controller", {}}, result, std::nullopt, error);
   };
   const auto winner = [](const std::vector<design::Assessment>& candidates) {
     return design::recommend(candidates, {.accepted = design::Fitness::unstable}).winner;
@@ -170,7 +170,7 @@ TEST(TimeDomain, SaysThatTheSlewRateIsOutOfReach) {
   auto slow = section();
   EXPECT_THAT(conclude(slow), HasSubstr("With 20 % flow and pressure reserve the drive slews at "
                                         "0.1 deg/s, not the specified 0.25."));
-  slow.result.slew->within_reach = true;
+  slow.result.slew->achievable_limits = true;
   EXPECT_THAT(conclude(slow), Not(HasSubstr("reserve")));
 }
 
@@ -183,7 +183,7 @@ TEST(TimeDomain, NamesAnAssumedStrokeThatDecides) {
                                            "150 rad/s that is assumed: state"));
   design::InfluenceResult limits;
   limits.influence = design::Influence::limits;
-  limits.difference = 0.1 * assumed.result.wind.beam_rms;
+  limits.difference = 0.1 * assumed.result.wind.boresight_rms;
   assumed.result.wind.influences = {limits};
   EXPECT_THAT(decide(assumed), HasSubstr("The simulated rms and the slew rate depend on"));
   assumed.stroke_assumption.clear();
@@ -194,8 +194,8 @@ TEST(TimeDomain, TextSaysWhyThereAreNoNumbers) {
   auto lost = section();
   lost.result.wind.status = design::RunStatus::lost;
   lost.result.wind.message = "the encoder is 1 rad off";
-  lost.result.hunting[0].status = design::RunStatus::failed;
-  lost.result.hunting[0].message = "no steady motion";
+  lost.result.limit_cycles[0].status = design::RunStatus::failed;
+  lost.result.limit_cycles[0].message = "no steady motion";
   lost.result.reversal->status = design::RunStatus::lost;
   lost.result.reversal->message = "gone";
   lost.result.slew->largest_error = nan;
@@ -261,29 +261,29 @@ TEST(TimeDomain, ConcludesWhatTheLinearFigureIsWorth) {
   EXPECT_THAT(conclude(throttled),
               HasSubstr("; the flow through the valve's orifices alone adds 0.300."));
   auto twice = section();
-  twice.result.wind.beam_rms = 1.06 * mdeg;
+  twice.result.wind.boresight_rms = 1.06 * mdeg;
   EXPECT_THAT(conclude(twice), AllOf(HasSubstr("Simulated/linear rms ratio 2.12: a linear "
                                                "prediction needs this margin to its budget."),
                                      Not(HasSubstr("% margin"))));
   auto calm = section();
-  calm.result.wind.beam_rms = 0.49 * mdeg;
+  calm.result.wind.boresight_rms = 0.49 * mdeg;
   EXPECT_THAT(conclude(calm), Not(HasSubstr("% margin")));
   auto lost = section();
   lost.result.wind.status = design::RunStatus::lost;
   EXPECT_THAT(conclude(lost), HasSubstr("in 10 m/s of wind did not complete (lost)"));
 }
 
-TEST(TimeDomain, SaysWhyAnotherLawThanTheLinearlyBestIsChosen) {
+TEST(TimeDomain, SaysWhyAnotherControllerThanTheLinearlyBestIsChosen) {
   auto chosen = section();
-  chosen.candidates = {{chosen.law, chosen.result}, {"quick", chosen.result}};
+  chosen.candidates = {{chosen.controller, chosen.result}, {"quick", chosen.result}};
   EXPECT_THAT(conclude(chosen), Not(HasSubstr("lowest linear rms")));
   auto& quick = chosen.candidates[1].result;
   quick.wind.predicted_rms = 0.3 * mdeg;
-  quick.wind.beam_rms = 0.7 * mdeg;
+  quick.wind.boresight_rms = 0.7 * mdeg;
   EXPECT_THAT(conclude(chosen),
               HasSubstr("quick has the lowest linear rms (0.300 mdeg); on the nonlinear antenna it "
                         "has 0.700 with a limit cycle of +-0.29: " +
-                        chosen.law + " is better. "));
+                        chosen.controller + " is better. "));
   quick.wind.status = design::RunStatus::lost;
   EXPECT_THAT(conclude(chosen), HasSubstr("its run did not complete (lost)"));
   EXPECT_THAT(to_text(chosen), HasSubstr("quick"));
@@ -294,89 +294,97 @@ TEST(TimeDomain, SaysWhyAnotherLawThanTheLinearlyBestIsChosen) {
 
 // Laws of so much rms by the linear plant, simulated, and hunting at rest, all in mdeg; the last is
 // the one chosen, by a budget of 0.527 mdeg rms, which is a limit cycle of +-0.745.
-struct LawInWind {
-  double linear, simulated, hunting;
+struct ControllerInWind {
+  double linear, simulated, limit_cycles;
 };
 
-TimeDomainSection chosen_of(const std::vector<LawInWind>& laws) {
+TimeDomainSection chosen_of(const std::vector<ControllerInWind>& controllers) {
   auto chosen = section();
-  for (const auto& law : laws) {
+  for (const auto& controller : controllers) {
     auto result = section().result;
-    result.wind.predicted_rms = law.linear * mdeg;
-    result.wind.beam_rms = law.simulated * mdeg;
-    if (std::isnan(law.simulated)) result.wind.status = design::RunStatus::lost;
-    result.hunting[0].limit_cycle = law.hunting > 0.0;
-    result.hunting[0].beam_amplitude = law.hunting * mdeg;
-    chosen.candidates.push_back({fmt::format("law {}", chosen.candidates.size() + 1), result});
+    result.wind.predicted_rms = controller.linear * mdeg;
+    result.wind.boresight_rms = controller.simulated * mdeg;
+    if (std::isnan(controller.simulated)) result.wind.status = design::RunStatus::lost;
+    result.limit_cycles[0].limit_cycle = controller.limit_cycles > 0.0;
+    result.limit_cycles[0].boresight_amplitude = controller.limit_cycles * mdeg;
+    chosen.candidates.push_back(
+        {fmt::format("controller {}", chosen.candidates.size() + 1), result});
   }
-  chosen.law = chosen.candidates.back().law;
+  chosen.controller = chosen.candidates.back().controller;
   chosen.result = chosen.candidates.back().result;
   return chosen;
 }
 
-TEST(TimeDomain, SaysByWhatRuleALawWasChosen) {
-  const auto told = [](const std::vector<LawInWind>& laws) {
-    return on_one_line(to_text(chosen_of(laws)));
+TEST(TimeDomain, SaysByWhatRuleAControllerWasChosen) {
+  const auto told = [](const std::vector<ControllerInWind>& controllers) {
+    return on_one_line(to_text(chosen_of(controllers)));
   };
-  const std::string least =
+  const std::string minimum =
       "the one above meets most budgets and then has the least simulated rms, limit cycle added in "
       "quadrature, or fewer gains in a tie with it (2 %, or the 95 % interval of the difference "
       "over "
       "the same winds).";
   const std::string limit = "beyond the tightest budget (+-0.7453 mdeg)";
-  const std::string some = "Of the controllers free of limit cycles " + limit + ", " + least;
-  for (const double hunting : {0.0, 0.3, 5.0}) {
-    EXPECT_THAT(told({{0.3, 0.4, hunting}, {0.5, 0.6, 0.3}}), HasSubstr(some));
+  const std::string some = "Of the controllers free of limit cycles " + limit + ", " + minimum;
+  for (const double limit_cycles : {0.0, 0.3, 5.0}) {
+    EXPECT_THAT(told({{0.3, 0.4, limit_cycles}, {0.5, 0.6, 0.3}}), HasSubstr(some));
   }
   EXPECT_THAT(told({{0.3, 2.2, 4.8}, {0.5, 1.8, 5.8}}),
-              HasSubstr("All limit-cycle " + limit + "; " + least));
+              HasSubstr("All limit-cycle " + limit + "; " + minimum));
   // One that holds still, but not in wind, is none to choose.
   EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
               HasSubstr("None completes the run in wind and is shown free of limit cycles " +
-                        limit + "; of those that complete it " + least));
+                        limit + "; of those that complete it " + minimum));
   EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
               HasSubstr("None completes the run in wind: the one above has the least linear rms."));
 }
 
-TEST(TimeDomain, CallsNoLawBetterThatHuntsToo) {
-  const auto told = [](const std::vector<LawInWind>& laws) { return conclude(chosen_of(laws)); };
+TEST(TimeDomain, CallsNoControllerBetterThatLimitCyclesToo) {
+  const auto told = [](const std::vector<ControllerInWind>& controllers) {
+    return conclude(chosen_of(controllers));
+  };
   const auto all = told({{0.3, 2.17, 4.8}, {0.5, 1.78, 5.8}});
   EXPECT_THAT(
       all,
-      HasSubstr("law 1 has the lowest linear rms (0.300 mdeg); on the nonlinear antenna it has "
-                "2.170 and has a limit cycle of +-4.80 mdeg, beyond the tightest budget of 0.527: "
-                "law 2 has 1.780, but also has one beyond the budget, +-5.80 mdeg. "));
+      HasSubstr(
+          "controller 1 has the lowest linear rms (0.300 mdeg); on the nonlinear antenna it has "
+          "2.170 and has a limit cycle of +-4.80 mdeg, beyond the tightest budget of 0.527: "
+          "controller 2 has 1.780, but also has one beyond the budget, +-5.80 mdeg. "));
   EXPECT_THAT(all, HasSubstr("At rest it has a limit cycle of +-5.80 mdeg in 2 of 3 runs, beyond "
                              "the tightest budget of 0.527."));
   EXPECT_THAT(all, Not(HasSubstr("is better")));
-  EXPECT_THAT(told({{0.3, 1.78, 5.8}, {0.5, 1.79, 4.8}}),
-              HasSubstr(": law 2 has the same rms within 2 % and a smaller limit cycle, but also "
-                        "has one beyond the budget, +-4.80 mdeg. "));
+  EXPECT_THAT(
+      told({{0.3, 1.78, 5.8}, {0.5, 1.79, 4.8}}),
+      HasSubstr(": controller 2 has the same rms within 2 % and a smaller limit cycle, but also "
+                "has one beyond the budget, +-4.80 mdeg. "));
   // One that does not is chosen whatever its rms.
   const auto some = told({{0.3, 0.4, 4.8}, {0.5, 0.6, 0.7}});
   EXPECT_THAT(some, HasSubstr("a limit cycle of +-4.80 mdeg, beyond the tightest budget of 0.527: "
-                              "law 2 has no limit cycle beyond the budget. "));
+                              "controller 2 has no limit cycle beyond the budget. "));
   EXPECT_THAT(some, HasSubstr("At rest it has a limit cycle of +-0.70 mdeg in 2 of 3 runs. "));
   // Where none does, rms and limit cycle decide together.
   EXPECT_THAT(told({{0.3, 0.7, 0.0}, {0.5, 0.6, 0.3}}),
-              HasSubstr("it has 0.700: law 2 is better. "));
-  EXPECT_THAT(told({{0.3, 0.595, 0.6}, {0.5, 0.6, 0.3}}),
-              HasSubstr("a limit cycle of +-0.60: law 2 has the same rms within 2 % and a smaller "
-                        "limit cycle. "));
-  EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
-              HasSubstr("its run did not complete (lost): law 2 has 1.800, but has a limit cycle "
-                        "of +-5.80 mdeg, beyond the tightest budget"));
+              HasSubstr("it has 0.700: controller 2 is better. "));
+  EXPECT_THAT(
+      told({{0.3, 0.595, 0.6}, {0.5, 0.6, 0.3}}),
+      HasSubstr("a limit cycle of +-0.60: controller 2 has the same rms within 2 % and a smaller "
+                "limit cycle. "));
+  EXPECT_THAT(
+      told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
+      HasSubstr("its run did not complete (lost): controller 2 has 1.800, but has a limit cycle "
+                "of +-5.80 mdeg, beyond the tightest budget"));
   EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
-              HasSubstr(": the run of law 2 did not complete either. "));
+              HasSubstr(": the run of controller 2 did not complete either. "));
 }
 
-TEST(TimeDomain, SaysOfALawAloneOnlyWhatItDoes) {
+TEST(TimeDomain, SaysOfAControllerAloneOnlyWhatItDoes) {
   auto alone = chosen_of({{0.5, 1.78, 5.8}});
   alone.candidates.clear();
-  EXPECT_THAT(decide(alone), HasSubstr("On the nonlinear antenna law 1 has 1.780 mdeg in wind, but "
-                                       "has a limit cycle of +-5.80 mdeg"));
+  EXPECT_THAT(decide(alone),
+              HasSubstr("On the nonlinear antenna controller 1 has 1.780 mdeg in wind, but "
+                        "has a limit cycle of +-5.80 mdeg"));
   EXPECT_THAT(decide(alone), Not(HasSubstr("no controller")));
-  alone.result.hunting[0].status = design::RunStatus::failed;
+  alone.result.limit_cycles[0].status = design::RunStatus::failed;
   EXPECT_THAT(conclude(alone),
               HasSubstr("At rest freedom from limit cycles was not shown (failed)."));
 }
@@ -386,17 +394,18 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   const design::Mission mission = mission_of(antenna);
   const auto problem = tracking_problem(mission);
   const control::LoopStructure& pi = control::LoopStructure::pi_with_lag();
-  const std::vector<design::NamedController> laws{
+  const std::vector<design::NamedController> controllers{
       {"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
       {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
       {"oscillates", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
   const auto chosen =
-      choose_in_time_domain(mission, problem, laws, 1, 2, design::ChoiceDetail::verified);
+      choose_in_time_domain(mission, problem, controllers, 1, 2, design::ChoiceDetail::verified);
   ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->law, "tuned");
+  EXPECT_EQ(chosen->controller, "tuned");
   ASSERT_EQ(chosen->candidates.size(), 3U);
-  EXPECT_LT(chosen->candidates[1].result.wind.beam_rms, chosen->candidates[0].result.wind.beam_rms);
-  EXPECT_EQ(chosen->candidates[1].result.wind.beam_rms, chosen->result.wind.beam_rms);
+  EXPECT_LT(chosen->candidates[1].result.wind.boresight_rms,
+            chosen->candidates[0].result.wind.boresight_rms);
+  EXPECT_EQ(chosen->candidates[1].result.wind.boresight_rms, chosen->result.wind.boresight_rms);
   ASSERT_TRUE(chosen->rms);
   EXPECT_EQ(chosen->candidates[1].simulated_rms(), chosen->rms->rms.value);
   EXPECT_GT(chosen->candidates[2].simulated_rms(), chosen->candidates[1].simulated_rms());
@@ -411,7 +420,7 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   // Nothing is compared with a run that was lost.
   auto lost = chosen->candidates[2];
   lost.rms.reset();
-  lost.result.wind.beam_rms = nan;
+  lost.result.wind.boresight_rms = nan;
   EXPECT_TRUE(std::isnan(lost.simulated_rms()));
   EXPECT_FALSE(figure_change(chosen->own(), lost));
   EXPECT_FALSE(chosen->result.wind.influences.empty());
@@ -422,28 +431,30 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {
   const auto json = json_of(section());
   const auto& wind = json.at("wind");
-  double sum = wind.at("predicted_rms_mdeg").get<double>() + wind.at("chance_mdeg").get<double>() +
-               wind.at("sampling_mdeg").get<double>() + wind.at("joint_mdeg").get<double>();
+  double sum = wind.at("predicted_rms_mdeg").get<double>() +
+               wind.at("realisation_error_mdeg").get<double>() +
+               wind.at("sampling_mdeg").get<double>() + wind.at("interaction_mdeg").get<double>();
   for (const auto& one : wind.at("influences")) sum += one.at("difference_mdeg").get<double>();
-  EXPECT_NEAR(sum, wind.at("beam_rms_mdeg").get<double>(), 1e-12);
+  EXPECT_NEAR(sum, wind.at("boresight_rms_mdeg").get<double>(), 1e-12);
   EXPECT_NEAR(json.at("slew").at("rate_limit_deg_per_s").get<double>(), 0.1, 1e-12);
-  EXPECT_TRUE(json.at("hunting").at(1).at("frequency_Hz").is_null());
+  EXPECT_TRUE(json.at("limit_cycles").at(1).at("frequency_Hz").is_null());
   EXPECT_TRUE(wind.at("message").is_null());
   auto bare = section();
   bare.result.reversal.reset();
   bare.result.slew.reset();
-  bare.result.wind.beam_rms = nan;
+  bare.result.wind.boresight_rms = nan;
   EXPECT_TRUE(json_of(bare).at("slew").is_null());
   EXPECT_TRUE(json_of(bare).at("reversal").is_null());
-  EXPECT_TRUE(json_of(bare).at("wind").at("beam_rms_mdeg").is_null());
+  EXPECT_TRUE(json_of(bare).at("wind").at("boresight_rms_mdeg").is_null());
 }
 
 TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {
   io::Case antenna = io::read_case(case_path("dss14-70m"));
   antenna.simulation.reset();
-  const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+  const control::Controller controller{control::LoopStructure::pi_with_lag(),
+                                       {0.2, 0.8, 6.0, 0.2, 0.02}};
   const design::Mission mission = mission_of(antenna);
-  EXPECT_FALSE(verify_in_time_domain(mission, tracking_problem(mission), law, "PI", 1, 1,
+  EXPECT_FALSE(verify_in_time_domain(mission, tracking_problem(mission), controller, "PI", 1, 1,
                                      design::SecondIntegrator::none));
 }
 

@@ -46,7 +46,7 @@ Json answer(const std::vector<std::string>& arguments, const ScratchFolder& fold
 }
 
 Json recommended_row(const Json& tuned) {
-  for (const auto& row : tuned.at("laws")) {
+  for (const auto& row : tuned.at("controllers")) {
     if (row.at("recommended").get<bool>()) return row;
   }
   return nullptr;
@@ -79,23 +79,25 @@ TEST(ControllerStudy, EveryCommandPutsTheSameControllerOnAnAntenna) {
     const Json evaluated = answer({"evaluate", path}, folder).at("evaluated");
     const Json& as_it_is = evaluated.at("candidates").at(0);
     EXPECT_EQ(as_it_is.at("chosen_structure"), row.at("structure"));
-    for (const auto& law : as_it_is.at("laws")) {
-      if (law.at("structure") == row.at("structure")) {
-        EXPECT_EQ(law.at("design").at("gains"), gains);
+    for (const auto& controller : as_it_is.at("controllers")) {
+      if (controller.at("structure") == row.at("structure")) {
+        EXPECT_EQ(controller.at("design").at("gains"), gains);
       }
     }
-    const Json held = answer({"montecarlo", path, "--plants", "4"}, folder).at("law").at("gains");
+    const Json held =
+        answer({"montecarlo", path, "--plants", "4"}, folder).at("controller").at("gains");
     ASSERT_EQ(held.size(), expected.size());
     for (std::size_t i = 0; i < held.size(); ++i) EXPECT_EQ(held[i].at("value"), expected[i]);
 
     BenchmarkArguments benchmark;
     benchmark.case_path = path;
     benchmark.threads = 2;
-    EXPECT_EQ(benchmark_case(benchmark, {}).controller.law->gains, expected);
+    EXPECT_EQ(benchmark_case(benchmark, {}).controller.controller->gains, expected);
     CommissionArguments commission;
     commission.case_path = path;
     commission.options.threads = 2;
-    EXPECT_EQ(commission_case(commission, {}).plan.stages.back().law.law.gains, expected);
+    EXPECT_EQ(commission_case(commission, {}).plan.stages.back().controller.controller.gains,
+              expected);
     if (!nonlinear) continue;
     SimulateArguments simulate;
     simulate.case_path = path;

@@ -44,16 +44,17 @@ TEST(MeasuredSection, TunesOnTheChirpOfTheShippedCampaign) {
   EXPECT_EQ(section.oil_source, "fitted to the same record");
   EXPECT_EQ(section.encoder_column, "");
   EXPECT_THAT(section.notes, ::testing::Contains(HasSubstr("no encoder was recorded")));
-  ASSERT_EQ(section.laws.size(), 1U);
+  ASSERT_EQ(section.controllers.size(), 1U);
   EXPECT_TRUE(section.any_confident());
   // On the plant that the records were made of, with friction and losses of the record's motion.
   auto problem = make_problem(io::read_case(folder + "/case.toml"));
   problem.plant.drive.leakage_rate = section.oil.loss_rate;
   problem.plant.drive.viscous_friction = 2.075;
-  const auto& law = section.laws[0].tuning.law;
-  EXPECT_TRUE(control::stability(problem.plant, law, problem.delay, design::analysis_grid(problem))
-                  .stable());
-  const auto truth = design::make_evaluator(problem).evaluate(law, false);
+  const auto& controller = section.controllers[0].tuning.controller;
+  EXPECT_TRUE(
+      control::stability(problem.plant, controller, problem.delay, design::analysis_grid(problem))
+          .stable());
+  const auto truth = design::make_evaluator(problem).evaluate(controller, false);
   for (const auto loop_break : control::loop_breaks) {
     EXPECT_LT(truth.highest_peak(loop_break), 2.1) << to_string(loop_break);
   }
@@ -63,8 +64,8 @@ TEST(MeasuredSection, TunesOnTheChirpOfTheShippedCampaign) {
   EXPECT_THAT(text, HasSubstr("is not examined"));
   EXPECT_THAT(text, HasSubstr("verified"));
   const auto json = json_of(section);
-  EXPECT_EQ(json["laws"][0]["status"], "confident");
-  EXPECT_EQ(json["laws"][0]["gains"].size(), 7U);
+  EXPECT_EQ(json["controllers"][0]["status"], "confident");
+  EXPECT_EQ(json["controllers"][0]["gains"].size(), 7U);
   EXPECT_EQ(json["encoder_column"], nullptr);
   EXPECT_THAT(conclude(section), ::testing::ElementsAre(HasSubstr("DPF on the measured")));
 }
@@ -107,7 +108,7 @@ TEST(MeasuredSection, TakesTheEncodersColumn) {
   const auto section = tuned((place / "case.toml").string(), "PI");
   EXPECT_EQ(section.encoder_column, "encoder");
   EXPECT_TRUE(section.channels->has_encoder());
-  EXPECT_FALSE(section.laws.empty());
+  EXPECT_FALSE(section.controllers.empty());
   std::filesystem::remove_all(place);
 }
 

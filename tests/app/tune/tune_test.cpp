@@ -63,31 +63,32 @@ TEST(PointingLimitOf, SamplesAsOftenAsTheCasesDelaySays) {
     const auto limit = pointing_limit_of(mission, section, {}, mission.wind.mean_speed, 1);
     EXPECT_DOUBLE_EQ(limit.sample_time, sample_time);
     EXPECT_DOUBLE_EQ(limit.computation_delay, sample_time);
-    EXPECT_GT(limit.least_rms, last);  // slower sampling can only cost
-    last = limit.least_rms;
+    EXPECT_GT(limit.min_rms, last);  // slower sampling can only cost
+    last = limit.min_rms;
   }
 }
 
-TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
+TEST(Shortfalls, NoControllerHoldsWhatTheSupplyCannot) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
   TuneSection section;
-  section.supply_wind_speed = supply_wind_speed(antenna, make_problem(antenna));
+  section.torque_limited_wind_speed = torque_limited_wind_speed(antenna, make_problem(antenna));
   // At that speed mean wind, friction of tracking and gravity take all of the supply's torque.
   const double friction = plant::friction_torque(
       io::friction_curve(antenna), antenna.drive->tracking_rate.value * gear_ratio(antenna));
   EXPECT_GT(friction, 0.0);
-  EXPECT_NEAR(plant::mean_wind_torque(make_problem(antenna).wind.site, section.supply_wind_speed) /
-                      io::gear_ratio(antenna) +
-                  friction + 5.65,
-              io::supply_torque(antenna), 1e-9 * supply_torque(antenna));
+  EXPECT_NEAR(
+      plant::mean_wind_torque(make_problem(antenna).wind.site, section.torque_limited_wind_speed) /
+              io::gear_ratio(antenna) +
+          friction + 5.65,
+      io::supply_torque(antenna), 1e-9 * supply_torque(antenna));
   design::PointingBudget budget;
   budget.name = "need";
   budget.band = "Ka";
   budget.rms = 1e-5;
-  budget.wind_speed = 0.99 * section.supply_wind_speed;
+  budget.wind_speed = 0.99 * section.torque_limited_wind_speed;
   section.budgets = {budget};
   EXPECT_TRUE(find_shortfalls(section).empty());
-  section.budgets[0].wind_speed = 1.01 * section.supply_wind_speed;
+  section.budgets[0].wind_speed = 1.01 * section.torque_limited_wind_speed;
   const auto shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
   EXPECT_THAT(shortfalls[0].infeasible, HasSubstr("by any controller"));
@@ -96,7 +97,7 @@ TEST(Shortfalls, NoLawHoldsWhatTheSupplyCannot) {
 TEST(Shortfalls, NoWindIsHeldWhereFrictionTakesTheSupply) {
   io::Case antenna = io::read_case(case_path("dss14-70m"));
   antenna.friction_curve->coulomb.value = io::supply_torque(antenna);
-  EXPECT_EQ(supply_wind_speed(antenna, make_problem(antenna)), 0.0);
+  EXPECT_EQ(torque_limited_wind_speed(antenna, make_problem(antenna)), 0.0);
   antenna.goals->crest_factor = antenna.goals->sensitivity_peak;
   EXPECT_THAT(reference::Call([&] { make_goals(antenna); }),
               testing::ThrowsMessage<InvalidInput>(HasSubstr("above friction and offset")));
@@ -107,18 +108,18 @@ TEST(Shortfalls, NameTheStrokeThatIsAssumed) {
   section.wind_speeds = {12.0};
   section.demand_assumption = io::demand_assumption(io::read_case(case_path("dss14-70m")));
   EXPECT_THAT(section.demand_assumption, HasSubstr("150 rad/s that is assumed (1.2 times"));
-  TunedLaw law;
-  law.structure = "PI";
-  law.wind_speed = 12.0;
-  law.design.tuning.status = design::TuningStatus::infeasible;
-  law.design.tuning.worst_goal_ratio = 1.1;
-  design::LimitingGoal limit;
+  TunedController controller;
+  controller.structure = "PI";
+  controller.wind_speed = 12.0;
+  controller.design.tuning.status = design::TuningStatus::infeasible;
+  controller.design.tuning.worst_constraint = 1.1;
+  design::ActiveConstraint limit;
   limit.goal.kind = design::GoalKind::gust_torque;
-  law.design.tuning.limits = {limit};
-  section.laws = {law};
+  controller.design.tuning.limits = {limit};
+  section.controllers = {controller};
   ASSERT_EQ(find_shortfalls(section).size(), 1U);
   EXPECT_THAT(find_shortfalls(section)[0].closest, Not(HasSubstr("assumed")));
-  section.laws[0].design.tuning.limits[0].goal.kind = design::GoalKind::gust_demand;
+  section.controllers[0].design.tuning.limits[0].goal.kind = design::GoalKind::gust_demand;
   EXPECT_THAT(find_shortfalls(section)[0].closest, HasSubstr("150 rad/s that is assumed"));
 }
 
@@ -176,10 +177,10 @@ TEST(PlantMembers, RepeatWithTheSeedAndTakeTheCasesRanges) {
 
 TEST(EngineersUnits, AreThoseThatTheCaseWrites) {
   const io::Case antenna = io::parse_case(EditedCase().text() + "\n" + tables(), "case.toml");
-  const auto laws = present_controllers(antenna);
-  ASSERT_EQ(laws.size(), 2U);
+  const auto controllers = present_controllers(antenna);
+  ASSERT_EQ(controllers.size(), 2U);
   const io::GainUnits units(antenna);
-  const auto written = units.texts(laws[1].law);
+  const auto written = units.texts(controllers[1].controller);
   EXPECT_THAT(written,
               testing::ElementsAre("0.2", "0.127 Hz", "0.95 Hz", "40 Hz", "0.2 1/s", "0.02 rad/s"));
   EXPECT_EQ(units.texts({control::LoopStructure::pi(), {0.5, 1.0, 2.0, 0.25}})[1], "1 rad/s");
@@ -288,17 +289,17 @@ TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
   options.starts = 4;
   const auto section = tune_structures(
       mission, {design::EnsembleSource::ranges, plant_members(mission, 1)}, options);
-  ASSERT_EQ(section.laws.size(), 6U);
-  for (const auto& part : section.laws) {
+  ASSERT_EQ(section.controllers.size(), 6U);
+  for (const auto& part : section.controllers) {
     ASSERT_TRUE(part.usable()) << part.structure;
-    for (const auto& whole : section.laws) {
+    for (const auto& whole : section.controllers) {
       if (whole.tuned_for == part.tuned_for && whole.structure.starts_with("DPF") &&
           whole.structure.size() > part.structure.size()) {
-        EXPECT_LT(whole.beam_rms, 1.0002 * part.beam_rms) << whole.structure;
+        EXPECT_LT(whole.boresight_rms, 1.0002 * part.boresight_rms) << whole.structure;
       }
     }
   }
-  EXPECT_LT(section.laws[5].beam_rms * 180e3 / std::numbers::pi, 1.005 * 0.3340);
+  EXPECT_LT(section.controllers[5].boresight_rms * 180e3 / std::numbers::pi, 1.005 * 0.3340);
 }
 
 TEST(Tune, SaysThatAnRmsIsOutOfReach) {
@@ -338,7 +339,7 @@ TEST(Tune, SaysThatNoStructureStabilisesThePlant) {
   EXPECT_THAT(
       result.errors,
       HasSubstr("No controller of hot within the search bounds stabilises this antenna. Widen"));
-  EXPECT_THAT(content_of(json), HasSubstr("\"status\": \"no stable law\""));
+  EXPECT_THAT(content_of(json), HasSubstr("\"status\": \"no stable controller\""));
 }
 
 TEST(Tune, KeepsTheBestFoundWhenInterrupted) {

@@ -376,9 +376,10 @@ TEST(Margins, OfAStaticGainAreItsOwn) {
 }
 
 // The reference antenna's loop at a break, as a function of frequency.
-auto antenna_loop(const plant::AntennaPlant& plant, const ControlLaw& law, LoopBreak loop_break) {
+auto antenna_loop(const plant::AntennaPlant& plant, const Controller& controller,
+                  LoopBreak loop_break) {
   return [=](double w) {
-    return loop_gain(plant::PointResponse(plant)(w), w, law, reference::delay, loop_break);
+    return loop_gain(plant::PointResponse(plant)(w), w, controller, reference::delay, loop_break);
   };
 }
 
@@ -389,16 +390,17 @@ TEST(Margins, OfTheAntennaPutAPoleOnTheAxisWhenUsedUp) {
   reference::RandomNumbers random(111);
   for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     for (int trial = 0; trial < 3; ++trial) {
-      const ControlLaw law = reference::sound_law(random, evaluator, structure, 2.5);
-      ASSERT_LT(numerics::spectral_abscissa(closed_loop(plant, law, reference::delay).a), 0.0);
+      const Controller controller = reference::sound_controller(random, evaluator, structure, 2.5);
+      ASSERT_LT(numerics::spectral_abscissa(closed_loop(plant, controller, reference::delay).a),
+                0.0);
       // The rate gain multiplies the loop at the valve, the position gain the one at the command.
-      const std::size_t position_gain = law.gains.size() - 2;
+      const std::size_t position_gain = controller.gains.size() - 2;
       for (const auto& [loop_break, index] : {std::pair{LoopBreak::valve_command, std::size_t{0}},
                                               std::pair{LoopBreak::position_loop, position_gain}}) {
-        const Margins found = margins(antenna_loop(plant, law, loop_break), w);
+        const Margins found = margins(antenna_loop(plant, controller, loop_break), w);
         for (const double factor : {found.increasing_gain_margin, found.decreasing_gain_margin}) {
           if (factor == infinity || factor == 0.0) continue;
-          ControlLaw changed = law;
+          Controller changed = controller;
           changed.gains[index] *= factor;
           EXPECT_NEAR(numerics::spectral_abscissa(closed_loop(plant, changed, reference::delay).a),
                       0.0, 1e-6)
@@ -406,7 +408,7 @@ TEST(Margins, OfTheAntennaPutAPoleOnTheAxisWhenUsedUp) {
         }
         if (loop_break != LoopBreak::valve_command || found.delay_margin > 0.5) continue;
         EXPECT_NEAR(numerics::spectral_abscissa(
-                        closed_loop(plant, law, reference::delay + found.delay_margin).a),
+                        closed_loop(plant, controller, reference::delay + found.delay_margin).a),
                     0.0, 1e-5)
             << "delay margin " << found.delay_margin;
       }

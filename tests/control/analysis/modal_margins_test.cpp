@@ -128,7 +128,7 @@ TEST(ModalMargins, RefuseWhatTheyCannotFollow) {
   EXPECT_THAT(reference::Call([&] { margins(peer_loop(3), options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("0.01 to 1 rad, found 3")));
   options.largest_turn = 0.02;
-  options.most_points = 300;
+  options.max_points = 300;
   EXPECT_THAT(reference::Call([&] { margins(peer_loop(3), options); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("more than 300 frequencies")));
 }

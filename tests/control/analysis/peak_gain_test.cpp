@@ -174,8 +174,8 @@ Wide wide_peak(const plant::StateSpace& system, double near, double reach) {
 TEST(PeakGain, HoldsTheValueOfFiftyDigitsDownToADampingOfOneInAMillion) {
   RandomNumbers random(815);
   reference::RandomSystemOptions options;
-  options.least_damping = 1e-6;
-  options.most_damping = 1e-3;
+  options.min_damping = 1e-6;
+  options.max_damping = 1e-3;
   int inside = 0, trials = 0;
   double widest = 0.0;
   while (trials < 150) {

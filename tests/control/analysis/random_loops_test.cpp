@@ -44,14 +44,14 @@ struct Loop {
 constexpr double slowest = 0.1, fastest = 30.0;  // rad/s
 
 // A real root or a pair, in the left half plane but for one in eight.
-void add_root(RandomNumbers& random, std::vector<Complex>& roots, int count, double least_damping) {
+void add_root(RandomNumbers& random, std::vector<Complex>& roots, int count, double min_damping) {
   const double w = random.log_uniform(slowest, fastest);
   const double side = random.integer(0, 7) == 0 ? 1.0 : -1.0;
   if (static_cast<int>(roots.size()) + 2 > count || random.integer(0, 1) == 0) {
     roots.emplace_back(side * w);
     return;
   }
-  const double damping = random.log_uniform(least_damping, 0.9);
+  const double damping = random.log_uniform(min_damping, 0.9);
   roots.emplace_back(side * damping * w, w * std::sqrt(1.0 - damping * damping));
   roots.push_back(std::conj(roots.back()));
 }

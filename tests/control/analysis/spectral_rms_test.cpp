@@ -46,7 +46,7 @@ TEST(SpectralRms, IsThatOfLyapunovsEquation) {
   reference::RandomNumbers random(77);
   reference::RandomSystemOptions options;
   options.feedthrough = false;
-  options.most_modes = 6;
+  options.max_modes = 6;
   for (int trial = 0; trial < 300; ++trial) {
     const auto system = reference::random_stable_system(random, options);
     const double expected = lyapunov_rms_of(system);
@@ -125,7 +125,7 @@ TEST(SpectralRms, OfWhatHasNoneIsRefused) {
   EXPECT_TRUE(none.converged);
   // Too few evaluations: the estimate says so.
   SpectralRmsOptions few;
-  few.most_evaluations = 10;
+  few.max_evaluations = 10;
   few.relative_tolerance = 1e-12;
   const auto open =
       spectral_rms(response_of(plant::rational({1.0}, {1.0, 1e-4, 1.0}, "n", "y", "x")), few);

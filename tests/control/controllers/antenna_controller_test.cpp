@@ -6,7 +6,7 @@
 
 #include "reference_antenna.hpp"
 #include <boresight/control/controllers/antenna_controller.hpp>
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
@@ -20,11 +20,11 @@ using testing::HasSubstr;
 
 constexpr double sample_time = 0.02;
 
-ControlLaw pi_law() {
+Controller pi_controller() {
   return {LoopStructure::pi_with_lag(), {0.16, 0.42, 2.6, 10.0, 0.24}};
 }
 
-ControlLaw full_law() {
+Controller full_controller() {
   return {LoopStructure::full().with_compliance_compensation(),
           {0.3, 0.5, 4.0, 20.0, 0.02, 3.0, 5.0, 0.1, 1e-3, 2.0}};
 }
@@ -35,42 +35,45 @@ VectorXd vector(std::initializer_list<double> values) {
   return result;
 }
 
-TEST(AntennaController, ReadsWhatItsLawFeedsBack) {
-  EXPECT_THAT(AntennaController(pi_law(), sample_time).inputs(),
+TEST(AntennaController, ReadsWhatItsControllerFeedsBack) {
+  EXPECT_THAT(AntennaController(pi_controller(), sample_time).inputs(),
               ElementsAre("tachometer", "encoder", "reference", "reference_rate",
                           "reference_acceleration"));
-  EXPECT_THAT(AntennaController(full_law(), sample_time).inputs(),
+  EXPECT_THAT(AntennaController(full_controller(), sample_time).inputs(),
               ElementsAre("tachometer", "encoder", "motor_torque", "reference", "reference_rate",
                           "reference_acceleration"));
-  EXPECT_THAT(AntennaController(pi_law(), sample_time).outputs(), ElementsAre("valve_command"));
-  EXPECT_EQ(AntennaController(pi_law(), sample_time).sample_time(), sample_time);
+  EXPECT_THAT(AntennaController(pi_controller(), sample_time).outputs(),
+              ElementsAre("valve_command"));
+  EXPECT_EQ(AntennaController(pi_controller(), sample_time).sample_time(), sample_time);
 }
 
-TEST(AntennaController, WithinItsLimitItIsTheSampledLaw) {
-  const auto law = sampled_law(full_law(), sample_time);
-  plant::LinearSampledController linear(law);
-  AntennaController controller(full_law(), sample_time);
+TEST(AntennaController, WithinItsLimitItIsTheSampledController) {
+  const auto controller = sampled_controller(full_controller(), sample_time);
+  plant::LinearSampledController linear(controller);
+  AntennaController antenna_controller(full_controller(), sample_time);
   reference::RandomNumbers random(3);
   VectorXd expected(2), found(1);
   for (int k = 0; k < 200; ++k) {
     const double tachometer = random.uniform(-1.0, 1.0), encoder = random.uniform(-1.0, 1.0);
     const double torque = random.uniform(-9.0, 9.0), reference = random.uniform(-1.0, 1.0);
     VectorXd measured(5);
-    measured[plant::input_index(law, "tachometer")] = tachometer;
-    measured[plant::input_index(law, "encoder")] = encoder;
-    measured[plant::input_index(law, "motor_torque")] = torque;
-    measured[plant::input_index(law, "angle_reference")] = reference;
-    measured[plant::input_index(law, "rate_disturbance")] = 0.0;
+    measured[plant::input_index(controller, "tachometer")] = tachometer;
+    measured[plant::input_index(controller, "encoder")] = encoder;
+    measured[plant::input_index(controller, "motor_torque")] = torque;
+    measured[plant::input_index(controller, "angle_reference")] = reference;
+    measured[plant::input_index(controller, "rate_disturbance")] = 0.0;
     linear.update(0.0, measured, expected);
-    controller.update(0.0, vector({tachometer, encoder, torque, reference, 5.0, 7.0}), found);
-    ASSERT_NEAR(found[0], expected[plant::output_index(law, "valve_demand")], 1e-10);
+    antenna_controller.update(0.0, vector({tachometer, encoder, torque, reference, 5.0, 7.0}),
+                              found);
+    ASSERT_NEAR(found[0], expected[plant::output_index(controller, "valve_demand")], 1e-10);
   }
 }
 
 TEST(AntennaController, FeedforwardActsWhereItSays) {
   AntennaControllerOptions options;
   options.feedforward = {1.0, -0.01, 1.1, 0.3};
-  AntennaController with(pi_law(), sample_time, options), without(pi_law(), sample_time);
+  AntennaController with(pi_controller(), sample_time, options),
+      without(pi_controller(), sample_time);
   VectorXd expected(1), found(1);
   // A rate command is as good as a tachometer's error of the other sign.
   for (int k = 0; k < 20; ++k) {
@@ -85,41 +88,41 @@ TEST(AntennaController, KeepsToItsLimitAndUnwinds) {
   const double limit = 3.0;
   VectorXd command(1);
   const auto samples_to_leave = [&](bool anti_windup) {
-    AntennaController controller(pi_law(), sample_time,
-                                 {.command_limit = limit, .anti_windup = anti_windup});
+    AntennaController antenna_controller(pi_controller(), sample_time,
+                                         {.command_limit = limit, .anti_windup = anti_windup});
     for (int k = 0; k < 1000; ++k) {
-      controller.update(0.0, vector({0.0, 0.0, 5.0, 0.0, 0.0}), command);
+      antenna_controller.update(0.0, vector({0.0, 0.0, 5.0, 0.0, 0.0}), command);
       EXPECT_LE(std::abs(command[0]), limit);
     }
     EXPECT_EQ(command[0], limit);
     int k = 0;
     for (; k < 100000 && command[0] == limit; ++k) {
-      controller.update(0.0, vector({0.0, 5.5, 5.0, 0.0, 0.0}), command);
+      antenna_controller.update(0.0, vector({0.0, 5.5, 5.0, 0.0, 0.0}), command);
     }
     return k;
   };
-  EXPECT_EQ(AntennaController(pi_law(), sample_time).back_calculation_share(), 1.0);
-  EXPECT_EQ(
-      AntennaController(pi_law(), sample_time, {.anti_windup = false}).back_calculation_share(),
-      0.0);
+  EXPECT_EQ(AntennaController(pi_controller(), sample_time).back_calculation_fraction(), 1.0);
+  EXPECT_EQ(AntennaController(pi_controller(), sample_time, {.anti_windup = false})
+                .back_calculation_fraction(),
+            0.0);
   EXPECT_LT(10 * samples_to_leave(true), samples_to_leave(false));
 }
 
-TEST(AntennaController, BackCalculationIsStableForEveryLaw) {
+TEST(AntennaController, BackCalculationIsStableForEveryController) {
   reference::RandomNumbers random(5);
   for (int trial = 0; trial < 40; ++trial) {
-    ControlLaw law{trial % 2 == 0 ? LoopStructure::full() : LoopStructure::pi(), {}};
-    for (const auto& gain : law.structure.gains()) {
-      law.gains.push_back(random.log_uniform(gain.lower, gain.upper));
+    Controller controller{trial % 2 == 0 ? LoopStructure::full() : LoopStructure::pi(), {}};
+    for (const auto& gain : controller.structure.gains()) {
+      controller.gains.push_back(random.log_uniform(gain.lower, gain.upper));
     }
-    AntennaController controller(law, sample_time, {.command_limit = 1.0});
-    ASSERT_GT(controller.back_calculation_share(), 0.0) << trial;
+    AntennaController antenna_controller(controller, sample_time, {.command_limit = 1.0});
+    ASSERT_GT(antenna_controller.back_calculation_fraction(), 0.0) << trial;
     // At the limit for an hour: the law's answer does not grow.
-    const auto measured = law.structure.has(LoopPath::pressure)
+    const auto measured = controller.structure.has(LoopPath::pressure)
                               ? vector({0.0, 0.0, 0.0, 1.0, 0.0, 0.0})
                               : vector({0.0, 0.0, 1.0, 0.0, 0.0});
     VectorXd command(1);
-    for (int k = 0; k < 180000; ++k) controller.update(0.0, measured, command);
+    for (int k = 0; k < 180000; ++k) antenna_controller.update(0.0, measured, command);
     ASSERT_TRUE(std::isfinite(command[0]));
   }
 }
@@ -127,22 +130,23 @@ TEST(AntennaController, BackCalculationIsStableForEveryLaw) {
 TEST(AntennaController, HoldsTheMotionThatItIsStartedFrom) {
   const auto plant = reference::antenna();
   for (const bool feedforward : {false, true}) {
-    for (const auto& law : {pi_law(), full_law()}) {
+    for (const auto& controller : {pi_controller(), full_controller()}) {
       AntennaControllerOptions options;
-      if (feedforward) options.feedforward = plant_feedforward(plant, law, 0.03);
-      AntennaController controller(law, sample_time, options);
-      const double lead = controller.start_from({4.0, 2.0, 60.0});
-      const bool compliance = law.structure.has(LoopPath::compliance);
+      if (feedforward) options.feedforward = plant_feedforward(plant, controller, 0.03);
+      AntennaController antenna_controller(controller, sample_time, options);
+      const double lead = antenna_controller.start_from({4.0, 2.0, 60.0});
+      const bool compliance = controller.structure.has(LoopPath::compliance);
       EXPECT_NEAR(lead, compliance ? 1e-3 * 60.0 : 0.0, 1e-12);
-      controller.restart();
+      antenna_controller.restart();
       VectorXd command(1);
       for (int k = 0; k < 500; ++k) {
         const double reference = 2.0 * sample_time * k;
-        controller.update(0.0,
-                          compliance ? vector({2.0, reference + lead, 60.0, reference, 2.0, 0.0})
-                                     : vector({2.0, reference + lead, reference, 2.0, 0.0}),
-                          command);
-        ASSERT_NEAR(command[0], 4.0, 1e-9) << law.structure.name() << " at sample " << k;
+        antenna_controller.update(0.0,
+                                  compliance
+                                      ? vector({2.0, reference + lead, 60.0, reference, 2.0, 0.0})
+                                      : vector({2.0, reference + lead, reference, 2.0, 0.0}),
+                                  command);
+        ASSERT_NEAR(command[0], 4.0, 1e-9) << controller.structure.name() << " at sample " << k;
       }
     }
   }
@@ -152,7 +156,7 @@ TEST(PlantFeedforward, IsTheInverseOfThePlantAtLowFrequencies) {
   auto plant = reference::antenna();
   plant.drive.viscous_friction = 6.0;
   const double delay = 0.03;
-  const auto forward = plant_feedforward(plant, pi_law(), delay);
+  const auto forward = plant_feedforward(plant, pi_controller(), delay);
   // Motor rate by valve command at s = j w, and the dead time before it: u/rate = v + a s.
   auto system = plant::to_state_space(plant);
   const double w = 1e-3;
@@ -166,7 +170,7 @@ TEST(PlantFeedforward, IsTheInverseOfThePlantAtLowFrequencies) {
   EXPECT_NEAR((1.0 / (1.0 + s / plant.drive.tachometer_corner)).imag() / w,
               forward.acceleration_to_rate_command, 1e-8);
   // A washed-out pressure path takes kT/wd of the torque's rate off.
-  const ControlLaw damped{LoopStructure::pressure_feedback(),
+  const Controller damped{LoopStructure::pressure_feedback(),
                           {0.16, 0.42, 2.6, 0.05, 2.5, 10.0, 0.24}};
   EXPECT_NEAR(plant_feedforward(plant, damped, delay).acceleration_to_valve_command -
                   forward.acceleration_to_valve_command,
@@ -182,16 +186,18 @@ TEST(AntennaController, RefusesWhatItCannotDo) {
     }
     return "accepted";
   };
-  EXPECT_THAT(message([] { AntennaController(pi_law(), sample_time, {.command_limit = 0.0}); }),
-              HasSubstr("command limit above 0 and finite feedforward, found a limit of 0"));
+  EXPECT_THAT(
+      message([] { AntennaController(pi_controller(), sample_time, {.command_limit = 0.0}); }),
+      HasSubstr("command limit above 0 and finite feedforward, found a limit of 0"));
   EXPECT_THAT(message([] {
                 AntennaController(
-                    pi_law(), sample_time,
+                    pi_controller(), sample_time,
                     {.feedforward = {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0}});
               }),
               HasSubstr("finite feedforward"));
-  EXPECT_THAT(message([] { AntennaController(pi_law(), 0.0); }), HasSubstr("sample time above 0"));
-  EXPECT_THAT(message([] { plant_feedforward(reference::antenna(), pi_law(), -1.0); }),
+  EXPECT_THAT(message([] { AntennaController(pi_controller(), 0.0); }),
+              HasSubstr("sample time above 0"));
+  EXPECT_THAT(message([] { plant_feedforward(reference::antenna(), pi_controller(), -1.0); }),
               HasSubstr("expected a delay of 0 or more, found -1"));
 }
 

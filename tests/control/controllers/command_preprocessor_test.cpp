@@ -17,9 +17,9 @@ using testing::HasSubstr;
 constexpr double sample_time = 0.02;
 constexpr CommandLimits limits{0.25, 0.2};  // of any unit
 
-// Samples until the target is reached and held; -1 if not within `most`.
-int samples_to_reach(CommandPreprocessor& command, double target, int most = 20000) {
-  for (int k = 1; k <= most; ++k) {
+// Samples until the target is reached and held; -1 if not within `maximum`.
+int samples_to_reach(CommandPreprocessor& command, double target, int maximum = 20000) {
+  for (int k = 1; k <= maximum; ++k) {
     command.advance(target);
     if (command.now().angle == target && command.now().rate == 0.0) return k;
   }
@@ -46,9 +46,9 @@ TEST(CommandPreprocessor, KeepsToItsLimitsAndEndsExactlyOnTheTarget) {
     }
     ASSERT_LT(k, 5000) << target;
     EXPECT_LE(furthest, std::abs(target)) << "passes the target";
-    const double least = least_move_time(limits, target);
-    EXPECT_GE(sample_time * k, least * (1.0 - 1e-12)) << target;
-    EXPECT_LE(sample_time * k, least + 2.0 * sample_time) << target;
+    const double minimum = min_move_time(limits, target);
+    EXPECT_GE(sample_time * k, minimum * (1.0 - 1e-12)) << target;
+    EXPECT_LE(sample_time * k, minimum + 2.0 * sample_time) << target;
   }
 }
 
@@ -58,7 +58,7 @@ TEST(CommandPreprocessor, TakesTheLeastTimeWhereThatIsWholeSamples) {
   for (const int up : {1, 7, 50}) {
     CommandPreprocessor command(limits, sample_time);
     const double target = step * up * sample_time * up;
-    EXPECT_NEAR(sample_time * samples_to_reach(command, target), least_move_time(limits, target),
+    EXPECT_NEAR(sample_time * samples_to_reach(command, target), min_move_time(limits, target),
                 1e-9)
         << up;
   }
@@ -66,18 +66,17 @@ TEST(CommandPreprocessor, TakesTheLeastTimeWhereThatIsWholeSamples) {
   for (const int level : {0, 1, 200}) {
     CommandPreprocessor command(whole, sample_time);
     const double target = whole.rate * sample_time * (62 + level);
-    EXPECT_NEAR(sample_time * samples_to_reach(command, target), least_move_time(whole, target),
-                1e-9)
+    EXPECT_NEAR(sample_time * samples_to_reach(command, target), min_move_time(whole, target), 1e-9)
         << level;
   }
 }
 
 TEST(CommandPreprocessor, ClosedFormOfTheLeastTime) {
-  EXPECT_DOUBLE_EQ(least_move_time(limits, 0.2), 2.0);
-  EXPECT_DOUBLE_EQ(least_move_time(limits, -0.2), 2.0);
-  EXPECT_DOUBLE_EQ(least_move_time(limits, 0.3125), 2.5);
-  EXPECT_DOUBLE_EQ(least_move_time(limits, 1.0), 4.0 + 1.25);
-  EXPECT_DOUBLE_EQ(least_move_time(limits, 0.0), 0.0);
+  EXPECT_DOUBLE_EQ(min_move_time(limits, 0.2), 2.0);
+  EXPECT_DOUBLE_EQ(min_move_time(limits, -0.2), 2.0);
+  EXPECT_DOUBLE_EQ(min_move_time(limits, 0.3125), 2.5);
+  EXPECT_DOUBLE_EQ(min_move_time(limits, 1.0), 4.0 + 1.25);
+  EXPECT_DOUBLE_EQ(min_move_time(limits, 0.0), 0.0);
 }
 
 TEST(CommandPreprocessor, FollowsAMovingTargetWithoutErrorOnceItIsReached) {
@@ -157,7 +156,7 @@ TEST(CommandPreprocessor, RefusesWhatIsNoLimitAndNoTarget) {
               }),
               HasSubstr("expected a finite target, found nan rad and 0 rad/s"));
   EXPECT_THAT(message([&] {
-                least_move_time({nan, 0.2}, 1.0);
+                min_move_time({nan, 0.2}, 1.0);
               }),
               HasSubstr("positive finite rate limit, found nan"));
 }

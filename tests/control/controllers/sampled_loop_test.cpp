@@ -74,17 +74,17 @@ TEST(SampledClosedLoop, IsTheLoopSimulatedBetweenTheSamples) {
     const Eigen::MatrixXd expected = plant::LinearSimulation(closed, period).simulate(u);
 
     const auto fast = plant::sample(drive(), period / parts);
-    const auto law = controller();
+    const auto compensator = controller();
     Eigen::VectorXd x = Eigen::VectorXd::Zero(4), z = Eigen::VectorXd::Zero(2);
     std::vector<double> commands;
     for (Eigen::Index k = 0; k < samples; ++k) {
       const Eigen::Vector2d y = fast.c * x;
       const Eigen::Vector2d in(u(k, 1), y[0] + u(k, 2));
-      commands.push_back((law.c * z + law.d * in)(0));
+      commands.push_back((compensator.c * z + compensator.d * in)(0));
       EXPECT_NEAR(expected(k, 0), y[0], 1e-12) << late << ", " << k;
       EXPECT_NEAR(expected(k, 1), y[1], 1e-12);
       EXPECT_NEAR(expected(k, 2), commands.back(), 1e-11);
-      z = law.a * z + law.b * in;
+      z = compensator.a * z + compensator.b * in;
       for (int part = 0; part < parts; ++part) {
         const int since = static_cast<int>(k) * parts + part - late;
         const double acting = since < 0 ? 0.0 : commands[static_cast<std::size_t>(since / parts)];
@@ -123,12 +123,13 @@ TEST(SampledOpenLoop, OfOneOfTwoCommandsKeepsTheOtherClosed) {
   auto plant =
       reference::state_space(random.matrix(3, 3) - 2.0 * Eigen::MatrixXd::Identity(3, 3),
                              random.matrix(3, 2), random.matrix(2, 3), Eigen::MatrixXd::Zero(2, 2));
-  auto law = reference::state_space(0.3 * random.matrix(2, 2), random.matrix(2, 2),
-                                    0.3 * random.matrix(2, 2), 0.2 * random.matrix(2, 2), 0.1);
-  law.inputs = {"y2", "y1"};
-  law.outputs = {"u2", "u1"};
-  law.states = {"c1", "c2"};
-  const SampledLoop loop{plant, law, 0.05};
+  auto compensator =
+      reference::state_space(0.3 * random.matrix(2, 2), random.matrix(2, 2),
+                             0.3 * random.matrix(2, 2), 0.2 * random.matrix(2, 2), 0.1);
+  compensator.inputs = {"y2", "y1"};
+  compensator.outputs = {"u2", "u1"};
+  compensator.states = {"c1", "c2"};
+  const SampledLoop loop{plant, compensator, 0.05};
   const auto poles = numerics::eigenvalues(sampled_closed_loop(loop).a);
   for (const char* command : {"u1", "u2"}) {
     const auto open = sampled_open_loop(loop, command);
@@ -166,7 +167,7 @@ struct FineRms {
 FineRms fine_rms(int late, double intensity, double variance) {
   constexpr int parts = 40;
   const auto plant = drive();
-  const auto law = controller();
+  const auto compensator = controller();
   const auto fast = plant::sample(plant, period / parts);
   // Noise of one step: Simpson over ten sub-steps.
   const auto tenth = plant::sample(plant, period / parts / 10.0);
@@ -191,12 +192,12 @@ FineRms fine_rms(int late, double intensity, double variance) {
                   jolt = Eigen::MatrixXd::Zero(all, 1);
   const Eigen::Index place = 4 + waiting + 1;
   sample.row(place).setZero();
-  sample.block(place, 0, 1, 4) = law.d(0, 1) * plant.c.row(0);
-  sample.block(place, 7, 1, 2) = law.c;
-  sample.block(7, 0, 2, 4) = law.b.col(1) * plant.c.row(0);
-  sample.block(7, 7, 2, 2) = law.a;
-  jolt(place, 0) = law.d(0, 1);
-  jolt.block(7, 0, 2, 1) = law.b.col(1);
+  sample.block(place, 0, 1, 4) = compensator.d(0, 1) * plant.c.row(0);
+  sample.block(place, 7, 1, 2) = compensator.c;
+  sample.block(7, 0, 2, 4) = compensator.b.col(1) * plant.c.row(0);
+  sample.block(7, 7, 2, 2) = compensator.a;
+  jolt(place, 0) = compensator.d(0, 1);
+  jolt.block(7, 0, 2, 1) = compensator.b.col(1);
   FineRms result{Eigen::VectorXd(2), Eigen::VectorXd(2)};
   for (int k = 0; k < 4000; ++k) {
     result.at_samples = (plant.c * p.topLeftCorner(4, 4) * plant.c.transpose()).diagonal();

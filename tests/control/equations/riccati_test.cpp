@@ -313,10 +313,10 @@ TEST(Riccati, CostIsTheLeast) {
       return (sampled ? solve_discrete_lyapunov(closed, weight) : solve_lyapunov(closed, weight))
           .covariance.trace();
     };
-    const double least = cost(solution.gain);
-    EXPECT_NEAR(least, solution.x.trace(), 1e-10 * least);
+    const double minimum = cost(solution.gain);
+    EXPECT_NEAR(minimum, solution.x.trace(), 1e-10 * minimum);
     for (int k = 0; k < 5; ++k) {
-      EXPECT_GT(cost(solution.gain + 1e-3 * random.matrix(1, n)), least);
+      EXPECT_GT(cost(solution.gain + 1e-3 * random.matrix(1, n)), minimum);
     }
   }
 }

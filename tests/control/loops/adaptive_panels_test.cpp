@@ -82,7 +82,7 @@ TEST(AdaptivePanels, AreDroppedDownToTheFirstOnesWhereTheyAreTooMany) {
   const std::size_t first = search.panels.size();
   search.run(1e-5);
   const std::size_t leaves = search.leaves.size();
-  while (search.panels.size() <= AdaptivePanels::most) search.panels.add(0.0, 1.0);
+  while (search.panels.size() <= AdaptivePanels::maximum) search.panels.add(0.0, 1.0);
   EXPECT_TRUE(search.panels.drop_halves_if_too_many());
   EXPECT_EQ(search.panels.size(), first);
   search.run(1e-5);

@@ -19,8 +19,8 @@ const std::vector<LoopStructure> structures = reference::loop_structures();
 
 TEST(ClosedLoop, HasTheResponsesOfTheLoopWrittenOut) {
   const auto plant = reference::antenna();
-  const ControlLaw law{LoopStructure::pi_with_lag(), {0.4, 0.8, 6.0, 0.4, 0.06}};
-  const auto loop = closed_loop(plant, law, reference::delay);
+  const Controller controller{LoopStructure::pi_with_lag(), {0.4, 0.8, 6.0, 0.4, 0.06}};
+  const auto loop = closed_loop(plant, controller, reference::delay);
   EXPECT_THAT(loop.inputs, testing::ElementsAre("wind_torque", "encoder_noise", "tachometer_noise",
                                                 "rate_disturbance"));
   EXPECT_THAT(loop.outputs, testing::ElementsAre("beam", "encoder", "tachometer", "motor_torque",
@@ -28,7 +28,7 @@ TEST(ClosedLoop, HasTheResponsesOfTheLoopWrittenOut) {
   const auto approximant = delay_approximant(reference::delay, delay_order, "in", "out");
   for (const double w : {0.05, 0.7, 5.0, 14.0, 40.0}) {
     const auto p = plant::plant_response(plant, Eigen::ArrayXd::Constant(1, w));
-    const auto c = compensator_response(law, w);
+    const auto c = compensator_response(controller, w);
     const Complex dead_time = plant::frequency_response(approximant, w)(0, 0);
     const Complex r = c.rate * dead_time;
     const Complex whole = 1.0 + r * (p.tachometer_command[0] + c.position * p.encoder_command[0]);
@@ -39,9 +39,9 @@ TEST(ClosedLoop, HasTheResponsesOfTheLoopWrittenOut) {
           << loop.outputs[static_cast<std::size_t>(i)] << " from "
           << loop.inputs[static_cast<std::size_t>(j)];
     };
-    near(0, 0, p.beam_wind[0] - p.beam_command[0] * r * measured / whole);
+    near(0, 0, p.boresight_wind[0] - p.boresight_command[0] * r * measured / whole);
     near(3, 0, p.torque_wind[0] - p.torque_command[0] * r * measured / whole);
-    near(0, 1, -p.beam_command[0] * r * c.position / whole);
+    near(0, 1, -p.boresight_command[0] * r * c.position / whole);
     near(2, 2, -p.tachometer_command[0] * r / whole);
     near(1, 3, p.encoder_command[0] * r / whole);
     near(4, 2, -c.rate / whole);
@@ -54,14 +54,15 @@ struct RateLoopPoles {
 };
 
 // Rate loop alone with the free angle left in: one eigenvalue at 0 that nothing drives.
-RateLoopPoles poles_of_rate_loop(const plant::AntennaPlant& plant, const ControlLaw& law) {
-  const double kr = gain(law, "kr"), wi = gain(law, "wi");
+RateLoopPoles poles_of_rate_loop(const plant::AntennaPlant& plant, const Controller& controller) {
+  const double kr = gain(controller, "kr"), wi = gain(controller, "wi");
   std::vector<plant::StateSpace> parts{
       plant::to_state_space(plant),
       plant::rational({-kr * wi, -kr}, {0.0, 1.0}, "tachometer", "pi", "integrator"),
       delay_approximant(reference::delay, delay_order, "demand", "valve_command")};
-  if (law.structure == LoopStructure::pi_with_lag()) {
-    parts.push_back(plant::rational({1.0}, {1.0, 1.0 / gain(law, "wp")}, "pi", "demand", "lag"));
+  if (controller.structure == LoopStructure::pi_with_lag()) {
+    parts.push_back(
+        plant::rational({1.0}, {1.0, 1.0 / gain(controller, "wp")}, "pi", "demand", "lag"));
   } else {
     parts.push_back(plant::static_gain(Eigen::MatrixXd::Ones(1, 1), {"pi"}, {"demand"}));
   }
@@ -75,7 +76,7 @@ RateLoopPoles poles_of_rate_loop(const plant::AntennaPlant& plant, const Control
   return result;
 }
 
-TEST(Winding, CountsTheUnstableEigenvalues) {
+TEST(EncirclementCount, CountsTheUnstableEigenvalues) {
   reference::RandomNumbers random(131);
   const auto plant = reference::antenna();
   auto evaluator = reference::loop_evaluator(plant);
@@ -85,31 +86,31 @@ TEST(Winding, CountsTheUnstableEigenvalues) {
     const bool written_out = !structure.has(LoopPath::pressure) &&
                              !structure.has(LoopPath::compliance) && structure.gains().size() < 6;
     for (int trial = 0; trial < 200; ++trial) {
-      const ControlLaw law = reference::random_law(random, structure);
-      const auto evaluation = evaluator.evaluate(law, false);
-      const auto poles = numerics::eigenvalues(closed_loop(plant, law, reference::delay).a);
+      const Controller controller = reference::random_controller(random, structure);
+      const auto evaluation = evaluator.evaluate(controller, false);
+      const auto poles = numerics::eigenvalues(closed_loop(plant, controller, reference::delay).a);
       const int closed = static_cast<int>((poles.real().array() > 0.0).count());
-      const auto verdict = stability(plant, law, reference::delay, residue_grid);
+      const auto verdict = stability(plant, controller, reference::delay, residue_grid);
       EXPECT_EQ(verdict.closed_loop_abscissa < 0.0, closed == 0);
       // Only a pole nearer to the axis than the grid is fine can be taken for the other side's.
       const double nearest = (poles.real().array() / poles.array().abs()).abs().minCoeff();
       if (evaluation.unstable_closed_loop != closed) {
-        EXPECT_LT(nearest, 1e-3) << testing::PrintToString(law.gains);
+        EXPECT_LT(nearest, 1e-3) << testing::PrintToString(controller.gains);
         ++disagreements;
       }
       stable += evaluation.stable() ? 1 : 0;
       if (!written_out) {
         if ((evaluation.unstable_rate_loop == 0) != (verdict.rate_loop_abscissa < 0.0)) {
           EXPECT_LT(std::abs(verdict.rate_loop_abscissa), 0.02)
-              << structure.name() << testing::PrintToString(law.gains);
+              << structure.name() << testing::PrintToString(controller.gains);
           ++disagreements;
         }
         continue;
       }
-      const RateLoopPoles rate = poles_of_rate_loop(plant, law);
+      const RateLoopPoles rate = poles_of_rate_loop(plant, controller);
       EXPECT_EQ(verdict.rate_loop_abscissa < 0.0, rate.count == 0);
       if (evaluation.unstable_rate_loop != rate.count) {
-        EXPECT_LT(rate.nearest, 1e-3) << testing::PrintToString(law.gains);
+        EXPECT_LT(rate.nearest, 1e-3) << testing::PrintToString(controller.gains);
         ++disagreements;
       }
     }
@@ -126,8 +127,8 @@ TEST(Stability, HoldsForTheExactDeadTime) {
   const Eigen::ArrayXd& w = evaluator.response().frequency;
   for (const auto& structure : structures) {
     for (int trial = 0; trial < 20; ++trial) {
-      const ControlLaw law = reference::sound_law(random, evaluator, structure, 3.0);
-      const auto verdict = stability(plant, law, reference::delay, w);
+      const Controller controller = reference::sound_controller(random, evaluator, structure, 3.0);
+      const auto verdict = stability(plant, controller, reference::delay, w);
       EXPECT_TRUE(verdict.stable());
       EXPECT_LT(verdict.dead_time_residue, 1e-3);
     }
@@ -167,10 +168,10 @@ TEST(LyapunovRms, WithTheWindFilterIsThatOfTheSpectrumItself) {
   // The order-4 filter costs less than 0.2 % of the closed-loop rms; order 1 is far off.
   const auto plant = reference::antenna();
   auto evaluator = reference::loop_evaluator(plant);
-  const ControlLaw law{LoopStructure::pi_with_lag(), {0.4, 0.8, 6.0, 0.4, 0.06}};
-  const double exact = std::sqrt(evaluator.evaluate(law, false).wind_variance);
+  const Controller controller{LoopStructure::pi_with_lag(), {0.4, 0.8, 6.0, 0.4, 0.06}};
+  const double exact = std::sqrt(evaluator.evaluate(controller, false).wind_variance);
   const auto rms = [&](const plant::ShapingFilter& filter) {
-    return lyapunov_rms(plant, law, reference::delay, filter, reference::sensor_noise());
+    return lyapunov_rms(plant, controller, reference::delay, filter, reference::sensor_noise());
   };
   const auto four = rms(reference::wind_filter(4));
   EXPECT_NEAR(four.wind / exact, 1.0, 2e-3);
@@ -181,9 +182,9 @@ TEST(LyapunovRms, WithTheWindFilterIsThatOfTheSpectrumItself) {
 }
 
 TEST(LyapunovRms, RefusesAnUnstableLoop) {
-  const ControlLaw law{LoopStructure::pi(), {20.0, 1.0, 0.05, 1e-3}};
-  EXPECT_THROW(lyapunov_rms(reference::antenna(), law, reference::delay, reference::wind_filter(4),
-                            reference::sensor_noise()),
+  const Controller controller{LoopStructure::pi(), {20.0, 1.0, 0.05, 1e-3}};
+  EXPECT_THROW(lyapunov_rms(reference::antenna(), controller, reference::delay,
+                            reference::wind_filter(4), reference::sensor_noise()),
                NumericalFailure);
 }
 

@@ -62,23 +62,23 @@ LoopEvaluator evaluator_of(bool light) {
       {.wind_spectrum = reference::peer_wind_spectrum, .quadrature = reference::peer_quadrature()}};
 }
 
-TEST(LoopPanels, HaveTheRmsOfFortyStableLawsToAMillionth) {
+TEST(LoopPanels, HaveTheRmsOfFortyStableControllersToAMillionth) {
   for (const bool light : {false, true}) {
     reference::RandomNumbers random(211);
     LoopEvaluator evaluator = evaluator_of(light);
     int compared = 0;
-    double largest_share = 0.0;
+    double largest_fraction = 0.0;
     while (compared < 40) {
       const PeerGains gains = stable_gains(random);
-      const auto found = evaluator.evaluate(reference::peer_law(gains), false);
+      const auto found = evaluator.evaluate(reference::peer_controller(gains), false);
       if (light && found.unstable_closed_loop != 0) continue;
       ASSERT_EQ(found.unstable_closed_loop, 0);
       const double rms = exact_rms(gains, light);
       EXPECT_LT(relative_error(reference::peer_rms(found.wind_variance), rms), 1e-7);
-      if (light) largest_share = std::max(largest_share, rms / exact_rms(gains, false) - 1.0);
+      if (light) largest_fraction = std::max(largest_fraction, rms / exact_rms(gains, false) - 1.0);
       ++compared;
     }
-    EXPECT_EQ(largest_share > 0.01, light);  // it is excited
+    EXPECT_EQ(largest_fraction > 0.01, light);  // it is excited
   }
 }
 
@@ -90,7 +90,7 @@ TEST(LoopPanels, HaveTheRmsOfLyapunovsEquation) {
     const auto closed = reference::channel(reference::peer_closed_loop(modes, gains), "n", "y");
     const auto solution = solve_lyapunov(closed.a, closed.b * closed.b.transpose());
     const double rms = std::sqrt((closed.c * solution.covariance * closed.c.transpose())(0, 0));
-    const auto found = evaluator.evaluate(reference::peer_law(gains), false);
+    const auto found = evaluator.evaluate(reference::peer_controller(gains), false);
     EXPECT_LT(relative_error(reference::peer_rms(found.wind_variance), rms), 1e-7);
   }
 }
@@ -101,13 +101,13 @@ TEST(LoopPanels, HaveTheGradientsOfTheExactRms) {
     LoopEvaluator evaluator = evaluator_of(light);
     for (int trial = 0; trial < 8; ++trial) {
       const PeerGains gains = stable_gains(random);
-      const ControlLaw law = reference::peer_law(gains);
-      const auto found = evaluator.evaluate(law, true);
+      const Controller controller = reference::peer_controller(gains);
+      const auto found = evaluator.evaluate(controller, true);
       if (found.unstable_closed_loop != 0) continue;
-      for (std::size_t k = 0; k < law.gains.size(); ++k) {
+      for (std::size_t k = 0; k < controller.gains.size(); ++k) {
         const auto by = [&](double step) {
           const auto log_variance = [&](double shift) {
-            std::vector<double> g = law.gains;
+            std::vector<double> g = controller.gains;
             g[k] *= std::exp(shift);
             return 2.0 * std::log(exact_rms({g[0], g[0] * g[1], g[2], g[2] * g[3]}, light));
           };
@@ -132,7 +132,8 @@ TEST(LoopPanels, CountTheUnstablePolesThatEigenvaluesFind) {
     const auto eigenvalues = numerics::eigenvalues(reference::peer_closed_loop(modes, gains).a);
     int expected = 0;
     for (const auto pole : eigenvalues) expected += pole.real() > 0.0 ? 1 : 0;
-    EXPECT_EQ(evaluator.evaluate(reference::peer_law(gains), false).unstable_closed_loop, expected);
+    EXPECT_EQ(evaluator.evaluate(reference::peer_controller(gains), false).unstable_closed_loop,
+              expected);
     unstable += expected > 0 ? 1 : 0;
   }
   EXPECT_GT(unstable, 20);
@@ -154,7 +155,7 @@ TEST(LoopPanels, SeePolesThatBarelyCrossTheAxis) {
   }
   LoopEvaluator evaluator = evaluator_of(false);
   const auto count = [&](double rate) {
-    return evaluator.evaluate(reference::peer_law({rate, 1.8, 0.45, 0.06}), false)
+    return evaluator.evaluate(reference::peer_controller({rate, 1.8, 0.45, 0.06}), false)
         .unstable_closed_loop;
   };
   EXPECT_EQ(count(stable * (1.0 - 1e-6)), 0);
@@ -168,7 +169,7 @@ TEST(LoopPanels, HaveThePeakOfTheHamiltonian) {
     const PeerGains gains = stable_gains(random);
     const auto peak =
         peak_gain(reference::channel(reference::peer_closed_loop(modes, gains), "d", "u"));
-    const auto found = evaluator.evaluate(reference::peer_law(gains), false);
+    const auto found = evaluator.evaluate(reference::peer_controller(gains), false);
     EXPECT_LT(relative_error(found.highest_peak(LoopBreak::valve_command), peak.lower), 1e-7);
   }
 }
@@ -200,25 +201,25 @@ TEST(LoopPanels, OfTheReferenceAntennaAgreeWithMuchFinerOnes) {
   reference::RandomNumbers random(216);
   for (const auto& structure : reference::loop_structures()) {
     for (int trial = 0; trial < 6; ++trial) {
-      ControlLaw law;
+      Controller controller;
       LoopEvaluation expected;
       do {
-        law = reference::random_law(random, structure);
-        expected = fine.evaluate(law, true);
+        controller = reference::random_controller(random, structure);
+        expected = fine.evaluate(controller, true);
       } while (!expected.stable());
-      const auto found = evaluator.evaluate(law, true);
+      const auto found = evaluator.evaluate(controller, true);
       EXPECT_TRUE(found.stable());
       // Of a variance to 2e-6, of the rms to 1e-6.
-      EXPECT_LT(relative_error(found.beam_variance(), expected.beam_variance()), 1e-7);
+      EXPECT_LT(relative_error(found.boresight_variance(), expected.boresight_variance()), 1e-7);
       EXPECT_LT(relative_error(found.wind_variance, expected.wind_variance), 2e-6);
       EXPECT_LT(relative_error(found.noise_variance, expected.noise_variance), 2e-6);
       EXPECT_LT(relative_error(found.effort_variance, expected.effort_variance), 2e-6);
       EXPECT_LT(relative_error(found.wind_demand_variance, expected.wind_demand_variance), 2e-6);
       EXPECT_LT(relative_error(found.wind_torque_variance, expected.wind_torque_variance), 2e-6);
-      for (std::size_t k = 0; k < law.gains.size(); ++k) {
-        const double beam = found.wind_log_gradient[k] + found.noise_log_gradient[k];
-        EXPECT_NEAR(beam, expected.wind_log_gradient[k] + expected.noise_log_gradient[k],
-                    1e-6 * expected.beam_variance());
+      for (std::size_t k = 0; k < controller.gains.size(); ++k) {
+        const double boresight = found.wind_log_gradient[k] + found.noise_log_gradient[k];
+        EXPECT_NEAR(boresight, expected.wind_log_gradient[k] + expected.noise_log_gradient[k],
+                    1e-6 * expected.boresight_variance());
         EXPECT_NEAR(found.effort_log_gradient[k], expected.effort_log_gradient[k],
                     1e-6 * expected.effort_variance);
       }
@@ -257,13 +258,13 @@ TEST(LoopPanels, HaveTheSameBitsInRegistersOfEveryWidth) {
   reference::RandomNumbers random(223);
   for (const auto& structure : reference::loop_structures()) {
     for (int i = 0; i < 5; ++i) {
-      const ControlLaw law = reference::random_law(random, structure);
+      const Controller controller = reference::random_controller(random, structure);
       std::vector<std::vector<double>> found;
       for (const std::size_t lanes : {2U, 4U, 8U}) {
         const numerics::NarrowRegisters narrow(lanes);
         LoopEvaluator evaluator = antenna_evaluator(reference_quadrature());
         evaluator.look_at_gusts(true);
-        found.push_back(numbers(evaluator.evaluate(law, true)));
+        found.push_back(numbers(evaluator.evaluate(controller, true)));
       }
       EXPECT_EQ(found[1], found[0]) << structure.name();
       EXPECT_EQ(found[2], found[0]) << structure.name();
@@ -283,8 +284,9 @@ TEST(LoopPanels, AgreeWithTheTrapezoidRuleOnAGridOfThousands) {
   LoopEvaluator panels = antenna_evaluator(reference_quadrature());
   reference::RandomNumbers random(217);
   for (const auto& structure : reference::loop_structures()) {
-    const ControlLaw law = reference::sound_law(random, panels, structure, 2.5);
-    const auto found = panels.evaluate(law, false), expected = trapezoid.evaluate(law, false);
+    const Controller controller = reference::sound_controller(random, panels, structure, 2.5);
+    const auto found = panels.evaluate(controller, false),
+               expected = trapezoid.evaluate(controller, false);
     EXPECT_LT(relative_error(found.wind_variance, expected.wind_variance), 1e-5);
     EXPECT_LT(relative_error(found.noise_variance, expected.noise_variance), 1e-5);
     EXPECT_LT(relative_error(found.effort_variance, expected.effort_variance), 1e-5);
@@ -297,15 +299,15 @@ TEST(LoopPanels, StandOnTheTopOfEveryPeak) {
   reference::RandomNumbers random(220);
   for (const auto& structure : reference::loop_structures()) {
     for (int trial = 0; trial < 40; ++trial) {
-      const ControlLaw law = reference::sound_law(random, evaluator, structure, 3.0);
-      const auto found = evaluator.evaluate(law, false);
+      const Controller controller = reference::sound_controller(random, evaluator, structure, 3.0);
+      const auto found = evaluator.evaluate(controller, false);
       for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
         if (found.peaks[b].empty()) continue;
         const SensitivityPeak& peak = found.peaks[b].front();
         double highest = 0.0;
         for (int k = -40; k <= 40; ++k) {
           const double w = peak.frequency * std::exp(2.5e-4 * k);
-          const auto gain = loop_gain(exact(w), w, law, reference::delay, loop_breaks[b]);
+          const auto gain = loop_gain(exact(w), w, controller, reference::delay, loop_breaks[b]);
           highest = std::max(highest, 1.0 / std::abs(1.0 + gain));
         }
         EXPECT_LT(highest, peak.magnitude * (1.0 + 5e-9))
@@ -318,14 +320,15 @@ TEST(LoopPanels, StandOnTheTopOfEveryPeak) {
 TEST(LoopPanels, GiveTheSameWhateverWasEvaluatedBefore) {
   reference::RandomNumbers random(218);
   LoopEvaluator evaluator = antenna_evaluator(reference_quadrature());
-  const ControlLaw law = reference::random_law(random, LoopStructure::full());
-  const auto first = evaluator.evaluate(law, true);
+  const Controller controller = reference::random_controller(random, LoopStructure::full());
+  const auto first = evaluator.evaluate(controller, true);
   const std::size_t frequencies = evaluator.frequencies_used();
   for (int i = 0; i < 1500; ++i) {
-    evaluator.evaluate(reference::random_law(random, LoopStructure::pressure_feedback()), false);
+    evaluator.evaluate(reference::random_controller(random, LoopStructure::pressure_feedback()),
+                       false);
   }
-  const auto again = evaluator.evaluate(law, true);
-  EXPECT_EQ(first.beam_variance(), again.beam_variance());
+  const auto again = evaluator.evaluate(controller, true);
+  EXPECT_EQ(first.boresight_variance(), again.boresight_variance());
   EXPECT_EQ(first.wind_log_gradient, again.wind_log_gradient);
   EXPECT_EQ(first.effort_log_gradient, again.effort_log_gradient);
   EXPECT_EQ(first.highest_peak(LoopBreak::position_loop),
@@ -341,23 +344,26 @@ TEST(LoopPanels, StateTheirFrequenciesAndWeights) {
   // The weights add to the band in Hz, and integrate what the loop lets through.
   EXPECT_LT(relative_error(evaluator.integration_weight().sum(), 25.0 - 1e-4), 1e-6);
   const plant::PointResponse exact(reference::antenna());
-  EXPECT_LT(relative_error(evaluator.response().beam_command[40], exact(w[40]).beam_command),
-            1e-12);
+  EXPECT_LT(
+      relative_error(evaluator.response().boresight_command[40], exact(w[40]).boresight_command),
+      1e-12);
   reference::RandomNumbers random(219);
-  const ControlLaw law = reference::sound_law(random, evaluator, LoopStructure::pi_with_lag(), 2.0);
-  const double variance = (evaluator.integration_weight() * evaluator.wind_transmission(law) *
-                           (w / two_pi).unaryExpr([](double f) {
-                             return reference::motor_wind_spectrum(f);
-                           })).sum();
-  EXPECT_LT(relative_error(variance, evaluator.evaluate(law, false).wind_variance), 1e-3);
+  const Controller controller =
+      reference::sound_controller(random, evaluator, LoopStructure::pi_with_lag(), 2.0);
+  const double variance =
+      (evaluator.integration_weight() * evaluator.wind_transmission(controller) *
+       (w / two_pi).unaryExpr([](double f) {
+         return reference::motor_wind_spectrum(f);
+       })).sum();
+  EXPECT_LT(relative_error(variance, evaluator.evaluate(controller, false).wind_variance), 1e-3);
 }
 
 TEST(LoopPanels, IntegrateOverTheirBandOnlyAndBandsAdd) {
-  const ControlLaw law{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
+  const Controller controller{LoopStructure::pi(), {0.25, 1.0, 0.4, 0.06}};
   const auto over = [&](FrequencyBand band) {
     LoopQuadrature quadrature = reference_quadrature();
     quadrature.band = band;
-    return antenna_evaluator(quadrature).evaluate(law, false);
+    return antenna_evaluator(quadrature).evaluate(controller, false);
   };
   const auto all = over({1e-4, 25.0}), low = over({1e-4, 0.3}), high = over({0.3, 25.0});
   EXPECT_LT(relative_error(low.wind_variance + high.wind_variance, all.wind_variance), 1e-9);
@@ -373,7 +379,7 @@ TEST(LoopPanels, TakeTheDensityBelowTheirBandForConstant) {
     LoopEvaluator evaluator(
         reference::PeerChannels(modes),
         {.wind_spectrum = reference::peer_wind_spectrum, .quadrature = quadrature});
-    const auto found = evaluator.evaluate(reference::peer_law(gains), true);
+    const auto found = evaluator.evaluate(reference::peer_controller(gains), true);
     EXPECT_LT(relative_error(evaluator.integration_weight().sum(), quadrature.analysis.highest),
               1e-6);
     return found;

@@ -15,11 +15,13 @@ using reference::relative_error;
 const std::vector<LoopStructure> structures = reference::loop_structures();
 
 // The highest |S| by the dynamic stiffness on a dense grid, its best point polished.
-double brute_force(const plant::AntennaPlant& plant, const ControlLaw& law, LoopBreak loop_break) {
+double brute_force(const plant::AntennaPlant& plant, const Controller& controller,
+                   LoopBreak loop_break) {
   const plant::PointResponse response(plant);
   const auto sensitivity = [&](double log_w) {
     const double w = std::exp(log_w);
-    return 1.0 / std::abs(1.0 + loop_gain(response(w), w, law, reference::delay, loop_break));
+    return 1.0 /
+           std::abs(1.0 + loop_gain(response(w), w, controller, reference::delay, loop_break));
   };
   const double low = std::log(two_pi * 1e-5), high = std::log(two_pi * 250.0);
   constexpr int points = 35000;
@@ -41,10 +43,10 @@ TEST(SensitivityBounds, AreThoseOfADenseGrid) {
     for (int trial = 0; trial < 4; ++trial) {
       const auto plant = reference::antenna(24.0 - 8.0 * trial);
       auto evaluator = reference::loop_evaluator(plant, 100);
-      const ControlLaw law = reference::sound_law(random, evaluator, structure, 6.0);
-      const auto bounds = sensitivity_bounds(plant, law, reference::delay);
+      const Controller controller = reference::sound_controller(random, evaluator, structure, 6.0);
+      const auto bounds = sensitivity_bounds(plant, controller, reference::delay);
       for (std::size_t b = 0; b < 3; ++b) {
-        const double highest = brute_force(plant, law, loop_breaks[b]);
+        const double highest = brute_force(plant, controller, loop_breaks[b]);
         EXPECT_TRUE(bounds[b].closed);
         EXPECT_LT(relative_error(bounds[b].lower, highest), 1e-8)
             << to_string(loop_breaks[b]) << ", " << structure.name() << ", " << bounds[b].frequency
@@ -64,14 +66,15 @@ TEST(SensitivityBounds, AreThoseOfTheEvaluator) {
   for (const auto& structure : structures) {
     for (const auto& [highest, tolerance] : {std::pair{2.1, 1e-6}, std::pair{4.0, 1e-6}}) {
       for (int trial = 0; trial < 15; ++trial) {
-        const ControlLaw law = reference::sound_law(random, evaluator, structure, highest);
-        const auto evaluation = evaluator.evaluate(law, false);
-        const auto bounds = sensitivity_bounds(plant, law, reference::delay);
+        const Controller controller =
+            reference::sound_controller(random, evaluator, structure, highest);
+        const auto evaluation = evaluator.evaluate(controller, false);
+        const auto bounds = sensitivity_bounds(plant, controller, reference::delay);
         for (std::size_t b = 0; b < 3; ++b) {
           EXPECT_LT(relative_error(evaluation.highest_peak(loop_breaks[b]), bounds[b].lower),
                     tolerance)
               << to_string(loop_breaks[b]) << " " << bounds[b].frequency << " rad/s "
-              << testing::PrintToString(law.gains);
+              << testing::PrintToString(controller.gains);
         }
       }
     }
@@ -83,9 +86,9 @@ TEST(SensitivityBounds, WithADenseGridOfTheEvaluatorAgreeToRounding) {
   const auto plant = reference::antenna();
   auto dense = reference::loop_evaluator(plant, 6000);
   for (const auto& structure : structures) {
-    const ControlLaw law = reference::sound_law(random, dense, structure, 3.0);
-    const auto evaluation = dense.evaluate(law, false);
-    const auto bounds = sensitivity_bounds(plant, law, reference::delay);
+    const Controller controller = reference::sound_controller(random, dense, structure, 3.0);
+    const auto evaluation = dense.evaluate(controller, false);
+    const auto bounds = sensitivity_bounds(plant, controller, reference::delay);
     for (std::size_t b = 0; b < 3; ++b) {
       EXPECT_LT(relative_error(evaluation.highest_peak(loop_breaks[b]), bounds[b].lower), 1e-8);
     }
@@ -108,9 +111,9 @@ TEST(SensitivityBounds, HoldForHundredsOfModes) {
       plant.structure.modes.push_back(part);
     }
   }
-  const ControlLaw law{LoopStructure::pi_with_lag(), {0.05, 0.5, 3.0, 0.3, 0.01}};
-  const auto many = sensitivity_bounds(plant, law, reference::delay);
-  const auto few = sensitivity_bounds(reference::antenna(), law, reference::delay);
+  const Controller controller{LoopStructure::pi_with_lag(), {0.05, 0.5, 3.0, 0.3, 0.01}};
+  const auto many = sensitivity_bounds(plant, controller, reference::delay);
+  const auto few = sensitivity_bounds(reference::antenna(), controller, reference::delay);
   for (std::size_t b = 0; b < 3; ++b) {
     EXPECT_TRUE(many[b].closed);
     EXPECT_LT(relative_error(many[b].lower, few[b].lower), 1e-9);

@@ -7,7 +7,7 @@
 #include "random_numbers.hpp"
 #include "reference_values.hpp"
 #include "refused_call.hpp"
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
 #include <boresight/control/lqg/lqg.hpp>
 #include <boresight/control/lqg/noise_effort_lqg.hpp>
@@ -60,12 +60,12 @@ LqgProblem problem_of(double delay, double weight = 1e-4) {
 }
 
 // What the problem charges, found by the covariance of the closed loop; noise alone or all.
-struct JudgedCost {
+struct EvaluatedCost {
   double outputs = 0.0, command = 0.0;
 };
 
-JudgedCost judge(const LqgProblem& problem, const plant::StateSpace& controller,
-                 bool disturbed = true) {
+EvaluatedCost evaluate(const LqgProblem& problem, const plant::StateSpace& controller,
+                       bool disturbed = true) {
   const std::string& command = problem.commands[0];
   const auto held = plant::static_gain(Eigen::MatrixXd::Ones(1, 1), {command}, {"acting_command"});
   std::vector<std::string> outputs = problem.plant.outputs;
@@ -79,7 +79,7 @@ JudgedCost judge(const LqgProblem& problem, const plant::StateSpace& controller,
   asked.emplace_back("acting_command");
   const Eigen::VectorXd rms =
       sampled_loop_rms({with_held, controller, problem.computation_delay}, noise, asked).over_time;
-  JudgedCost cost;
+  EvaluatedCost cost;
   for (std::size_t i = 0; i + 1 < asked.size(); ++i) {
     cost.outputs +=
         problem.output_weight.at(asked[i]) * std::pow(rms[static_cast<Eigen::Index>(i)], 2);
@@ -88,8 +88,8 @@ JudgedCost judge(const LqgProblem& problem, const plant::StateSpace& controller,
   return cost;
 }
 
-double judged(const LqgProblem& problem, const plant::StateSpace& controller) {
-  const JudgedCost cost = judge(problem, controller);
+double evaluated(const LqgProblem& problem, const plant::StateSpace& controller) {
+  const EvaluatedCost cost = evaluate(problem, controller);
   return cost.outputs + problem.command_weight.at(problem.commands[0]) * cost.command;
 }
 
@@ -97,7 +97,7 @@ TEST(Lqg, CostsWhatTheClosedLoopShowsAtAnyDelay) {
   for (const double delay : {0.0, 0.3, 1.0, 1.6, 2.0}) {
     const LqgProblem problem = problem_of(delay * period);
     const LqgDesign design = lqg(problem);
-    EXPECT_NEAR(judged(problem, design.controller) / design.cost, 1.0, 1e-9) << delay;
+    EXPECT_NEAR(evaluated(problem, design.controller) / design.cost, 1.0, 1e-9) << delay;
     EXPECT_LT(design.full_information_cost, design.cost);
   }
 }
@@ -134,7 +134,7 @@ TEST(Lqg, IsNotBeatenByAnyChangeOfItsGains) {
       StateEstimator estimator = design.estimator;
       Eigen::MatrixXd& gain = i % 2 == 0 ? regulator.gain : estimator.gain;
       gain.array() *= 1.0 + size * random.matrix(gain.rows(), gain.cols()).array();
-      const double cost = judged(problem, lqg_controller(sampled, regulator, estimator));
+      const double cost = evaluated(problem, lqg_controller(sampled, regulator, estimator));
       EXPECT_GT(cost, design.cost * (1.0 - 1e-9));
     }
   }
@@ -206,7 +206,7 @@ TEST(Lqg, CostsWhatTheAntennasClosedLoopShows) {
   for (const double weight : {1e-6, 1e-3, 1.0}) {
     const LqgProblem problem = antenna_problem(weight);
     const LqgDesign design = lqg(problem);
-    EXPECT_NEAR(judged(problem, design.controller) / design.cost, 1.0, 1e-7) << weight;
+    EXPECT_NEAR(evaluated(problem, design.controller) / design.cost, 1.0, 1e-7) << weight;
     EXPECT_LT(design.regulator.relative_residual, 1e-14);
     EXPECT_LT(design.estimator.relative_residual, 1e-14);
   }
@@ -267,15 +267,15 @@ TEST(NoiseEffortLqg, CostsWhatTheClosedLoopShows) {
     const LqgProblem problem = problem_of(delay * period, 1e-7);
     for (const double weight : {1e-5, 1e-3}) {
       const auto design = noise_effort_lqg(problem, weight);
-      const double found = judged(problem, design.controller) +
-                           weight * judge(problem, design.controller, false).command;
+      const double found = evaluated(problem, design.controller) +
+                           weight * evaluate(problem, design.controller, false).command;
       EXPECT_NEAR(found / design.cost, 1.0, 1e-8) << delay << " " << weight;
       // The LQG of the same total weight charges the wind's share as well.
       LqgProblem alike = problem;
       alike.command_weight["torque"] = weight;
       const auto other = lqg(alike).controller;
       EXPECT_LT(design.cost,
-                judged(problem, other) + weight * judge(problem, other, false).command);
+                evaluated(problem, other) + weight * evaluate(problem, other, false).command);
     }
   }
 }
@@ -312,11 +312,11 @@ TEST(NoiseEffortLqg, BoundsEveryControllerOfTheSameEffort) {
           sampled_pointing({problem.plant, lqg(charged).controller, period}, noise);
       double closest = 0.0;
       for (const auto& [w, cost] : costs) {
-        closest = std::max(closest, cost - w * pointing.valve_effort * pointing.valve_effort);
+        closest = std::max(closest, cost - w * pointing.control_effort * pointing.control_effort);
       }
-      EXPECT_GT(pointing.beam_rms * pointing.beam_rms, closest * (1.0 - 1e-4));
+      EXPECT_GT(pointing.boresight_rms * pointing.boresight_rms, closest * (1.0 - 1e-4));
       if (weight == 1e-3 && input_noise == 0.0) {
-        EXPECT_NEAR(pointing.beam_rms / std::sqrt(closest), 1.0, 0.01);  // and closely
+        EXPECT_NEAR(pointing.boresight_rms / std::sqrt(closest), 1.0, 0.01);  // and closely
       }
     }
   }
@@ -361,31 +361,32 @@ TEST(Lqg, RefusesWhatItCannotSolve) {
               ThrowsMessage<InvalidInput>(HasSubstr("expected one command, found 2")));
 }
 
-TEST(AntennaInWind, HearsOnlyTheSensorsThatTheLawTakes) {
+TEST(AntennaInWind, HearsOnlyTheSensorsThatTheControllerTakes) {
   const LqgProblem problem = antenna_problem(1.0);
-  const ControlLaw law{LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+  const Controller controller{LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
   SensorNoise noise = reference::sensor_noise();
-  const auto loop = sampled_loop(problem.plant, law, period);
+  const auto loop = sampled_loop(problem.plant, controller, period);
   const auto found = sampled_pointing(loop, noise);
-  EXPECT_NEAR(found.beam_rms, std::hypot(found.wind_rms, found.noise_rms), 1e-15);
+  EXPECT_NEAR(found.boresight_rms, std::hypot(found.wind_rms, found.noise_rms), 1e-15);
   noise.torque_rms *= 100.0;
   EXPECT_EQ(sampled_pointing(loop, noise).noise_rms, found.noise_rms);
   noise.encoder_rms *= 2.0;
   noise.tachometer_rms *= 2.0;
-  EXPECT_NEAR(sampled_pointing(loop, noise).valve_effort, 2.0 * found.valve_effort,
-              1e-9 * found.valve_effort);
+  EXPECT_NEAR(sampled_pointing(loop, noise).control_effort, 2.0 * found.control_effort,
+              1e-9 * found.control_effort);
   EXPECT_DOUBLE_EQ(sample_variance(0.3, 25.0, 0.02), 0.09);
   EXPECT_DOUBLE_EQ(sample_variance(0.3, 25.0, 0.01), 0.18);
 }
 
 // The continuous form with its dead time of one sample and half a hold, by another route.
-TEST(AntennaInWind, SwaysLikeTheContinuousFormUnderASlowLaw) {
+TEST(AntennaInWind, SwaysLikeTheContinuousFormUnderASlowController) {
   const LqgProblem problem = antenna_problem(1.0);
   const auto evaluator_noise = reference::sensor_noise();
-  const ControlLaw law{LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
+  const Controller controller{LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
   auto evaluator = reference::loop_evaluator(reference::antenna());
-  const auto expected = evaluator.evaluate(law, false);
-  const auto found = sampled_pointing(sampled_loop(problem.plant, law, period), evaluator_noise);
+  const auto expected = evaluator.evaluate(controller, false);
+  const auto found =
+      sampled_pointing(sampled_loop(problem.plant, controller, period), evaluator_noise);
   EXPECT_NEAR(found.wind_rms / std::sqrt(expected.wind_variance), 1.0, 0.01);
   EXPECT_NEAR(found.noise_rms / std::sqrt(expected.noise_variance), 1.0, 0.01);
 }

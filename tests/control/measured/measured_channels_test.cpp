@@ -37,8 +37,8 @@ TEST(MeasuredChannels, GiveWhatATorqueAtTheShaftDoes) {
     EXPECT_LT(difference(found.tachometer_wind, exact.tachometer_wind), 1e-11) << w;
     EXPECT_LT(difference(found.torque_wind, exact.torque_wind), 1e-11) << w;
     EXPECT_LT(difference(found.encoder_wind, exact.encoder_wind), 1e-11) << w;
-    EXPECT_EQ(found.beam_wind, found.encoder_wind);
-    EXPECT_EQ(found.beam_command, found.encoder_command);
+    EXPECT_EQ(found.boresight_wind, found.encoder_wind);
+    EXPECT_EQ(found.boresight_command, found.encoder_command);
   }
 }
 
@@ -131,8 +131,8 @@ TEST(MeasuredChannels, AddABendingThatAModelPredicts) {
       reference::oil_spring(antenna()), antenna().drive.tachometer_corner, options);
   const auto point = channels.at(3.0);
   const std::complex<double> per_encoder(0.9, 0.1);
-  EXPECT_EQ(point.beam_command, per_encoder * point.encoder_command);
-  EXPECT_EQ(point.beam_wind, per_encoder * point.encoder_wind + 1e-3);
+  EXPECT_EQ(point.boresight_command, per_encoder * point.encoder_command);
+  EXPECT_EQ(point.boresight_wind, per_encoder * point.encoder_wind + 1e-3);
 }
 
 TEST(MeasuredChannels, LeaveOutWhatIsNotCoherentAndSaySo) {
@@ -157,7 +157,7 @@ TEST(MeasuredChannels, LeaveOutWhatIsNotCoherentAndSaySo) {
   EXPECT_EQ(channels.basis(two_pi * 1.25), ResponseBasis::unresolved);
   EXPECT_EQ(channels.basis(two_pi * 4.9), ResponseBasis::measured);
   EXPECT_EQ(channels.basis(two_pi * 6.0), ResponseBasis::encoder_assumed);
-  EXPECT_NEAR(channels.resolved_share(), 1.0 - std::log(1.31 / 1.19) / std::log(200.0), 1e-9);
+  EXPECT_NEAR(channels.resolved_fraction(), 1.0 - std::log(1.31 / 1.19) / std::log(200.0), 1e-9);
   // The interpolation crosses the gap; the assumed encoder is uncertain by all of itself.
   const auto exact = reference::with_wind_at_motor(antenna(), two_pi * 1.25);
   EXPECT_LT(difference(channels.at(two_pi * 1.25).torque_command, exact.torque_command), 0.05);
@@ -223,17 +223,18 @@ TEST(MeasuredConfidence, HasTheRadiusOfItsDistribution) {
 // d ln S by central differences of the responses, at each break.
 TEST(MeasuredConfidence, KnowsHowErrorsMoveTheSensitivity) {
   const auto full = LoopStructure::full().with_compliance_compensation();
-  ControlLaw law{full, {}};
+  Controller controller{full, {}};
   for (const auto& gain : gain_descriptions(full)) {
-    law.gains.push_back(std::sqrt(gain.lower * gain.upper));
+    controller.gains.push_back(std::sqrt(gain.lower * gain.upper));
   }
   const MeasuredChannels channels = exact_channels();
   constexpr double delay = 0.03;
   for (const double w : {0.4, 3.0, 20.0}) {
     for (const LoopBreak loop_break : loop_breaks) {
-      const auto point = measured_loop_point(channels, law, delay, loop_break, w);
+      const auto point = measured_loop_point(channels, controller, delay, loop_break, w);
       const auto log_s = [&](const Eigen::Vector3cd& change) {
-        return -std::log(1.0 + loop_gain(channels.changed(w, change), w, law, delay, loop_break));
+        return -std::log(1.0 +
+                         loop_gain(channels.changed(w, change), w, controller, delay, loop_break));
       };
       for (Eigen::Index c = 0; c < 3; ++c) {
         Eigen::Vector3cd step = Eigen::Vector3cd::Zero();
@@ -256,18 +257,19 @@ TEST(MeasuredConfidence, FindsTheLeastFavourableResponse) {
   const auto measured = reference::measured_plant(antenna(), bins(100.0, 0.05, 10.0), 0.99, 9.0);
   const MeasuredChannels channels(measured, reference::oil_spring(antenna()),
                                   antenna().drive.tachometer_corner);
-  const ControlLaw law = reference::cautious_law();
+  const Controller controller = reference::cautious_gains();
   constexpr double delay = 0.03, radius = 1.7;
   const Eigen::ArrayXd grid = bins(50.0, 0.1, 8.0);
   reference::RandomNumbers random(1);
   for (const LoopBreak loop_break : loop_breaks) {
-    const LoopChannels worst = least_favourable(channels, law, delay, loop_break, radius, grid);
+    const LoopChannels worst =
+        least_favourable(channels, controller, delay, loop_break, radius, grid);
     const auto sensitivity = [&](const plant::ResponsePoint& point, double w) {
-      return 1.0 / std::abs(1.0 + loop_gain(point, w, law, delay, loop_break));
+      return 1.0 / std::abs(1.0 + loop_gain(point, w, controller, delay, loop_break));
     };
     for (Eigen::Index i = 0; i < grid.size(); i += 7) {
       const double w = grid[i];
-      const auto loop = measured_loop_point(channels, law, delay, loop_break, w);
+      const auto loop = measured_loop_point(channels, controller, delay, loop_break, w);
       const double largest = sensitivity(plant::point(worst.response, i), w);
       const double measured_one = 1.0 / std::abs(1.0 + loop.loop_gain);
       EXPECT_EQ(largest, sensitivity(worst.at(w), w));

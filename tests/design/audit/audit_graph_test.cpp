@@ -247,11 +247,11 @@ TEST(AuditGraph, TellsWhatHeadlineResultsBecome) {
   const auto findings = find({input("x", {exact("2")}), input("y", {exact("3")}),
                               product("p", {"x", "y"}, {stated({print("6.6")})}), headline, apart});
   ASSERT_THAT(findings, SizeIs(1));
-  ASSERT_THAT(findings[0].consequences, SizeIs(1));
-  EXPECT_EQ(findings[0].consequences[0].id, "h");
-  EXPECT_DOUBLE_EQ(findings[0].consequences[0].as_printed, 6.6 * 6.6);
-  EXPECT_DOUBLE_EQ(findings[0].consequences[0].as_corrected, 36.0);
-  EXPECT_NEAR(findings[0].consequences[0].relative_change(), 0.21, 1e-12);
+  ASSERT_THAT(findings[0].derived_quantities, SizeIs(1));
+  EXPECT_EQ(findings[0].derived_quantities[0].id, "h");
+  EXPECT_DOUBLE_EQ(findings[0].derived_quantities[0].as_printed, 6.6 * 6.6);
+  EXPECT_DOUBLE_EQ(findings[0].derived_quantities[0].as_corrected, 36.0);
+  EXPECT_NEAR(findings[0].derived_quantities[0].relative_change(), 0.21, 1e-12);
 }
 
 TEST(AuditGraph, FindsTheSameInAnyOrderOfTheNodes) {

@@ -52,8 +52,8 @@ TEST(CompareRecords, CountsIndependentSamplesNotSamples) {
   EXPECT_NEAR(white.whole.rms_before, 1.0, 0.05);
   // One pole of memory m: (1 - m^2)/(1 + m^2) of them.
   const auto slow = compare_records(noise(8000, 0.8, 1.0, 1), noise(8000, 0.8, 1.0, 2));
-  const double share = (1.0 - 0.64) / (1.0 + 0.64);
-  EXPECT_NEAR(slow.whole.freedom_before / white.whole.freedom_before, share, 0.25 * share);
+  const double fraction = (1.0 - 0.64) / (1.0 + 0.64);
+  EXPECT_NEAR(slow.whole.freedom_before / white.whole.freedom_before, fraction, 0.25 * fraction);
 }
 
 TEST(CompareRecords, FindsTheBandThatChanged) {
@@ -123,8 +123,8 @@ TEST(CompareRecords, SaysWhatIsWrong) {
   EXPECT_THAT(refusal(fine, fine, {.edges = {3.0, 1.0}}), HasSubstr("two rising edges"));
   EXPECT_THAT(refusal(fine, fine, {.edges = {60.0, 70.0}}),
               HasSubstr("found none from 60 to 70 Hz"));
-  RecordedChannel still{Eigen::VectorXd::Zero(200), {}, 0.01};
-  EXPECT_THAT(refusal(fine, still), HasSubstr("records that move, found nothing from"));
+  RecordedChannel calm{Eigen::VectorXd::Zero(200), {}, 0.01};
+  EXPECT_THAT(refusal(fine, calm), HasSubstr("records that move, found nothing from"));
 }
 
 }  // namespace

@@ -15,7 +15,7 @@
 namespace boresight::design {
 namespace {
 
-using control::ControlLaw;
+using control::Controller;
 using control::LoopStructure;
 using testing::HasSubstr;
 using testing::StartsWith;
@@ -42,41 +42,42 @@ std::vector<EnsembleMember> few_members(const TrackingProblem& problem) {
 }
 
 // Near what a robust tuning on the reference antenna comes to.
-ControlLaw pressure_law() {
+Controller pressure_controller() {
   return {LoopStructure::named("DPF"), {1.2, 2.0, 300.0, 0.204, 5.66, 0.8, 0.2}};
 }
-ControlLaw compliance_law() {
+Controller compliance_law() {
   return {LoopStructure::named("DPF+C"),
           {1.43, 2.06, 300.0, 0.2, 5.23, 1.05, 0.0905, 0.0087, 2.22}};
 }
 
-double gain_of(const ControlLaw& law, const std::string& symbol) {
-  const auto& gains = law.structure.gains();
+double gain_of(const Controller& controller, const std::string& symbol) {
+  const auto& gains = controller.structure.gains();
   for (std::size_t i = 0; i < gains.size(); ++i) {
-    if (gains[i].symbol == symbol) return law.gains[i];
+    if (gains[i].symbol == symbol) return controller.gains[i];
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
 
 TEST(StageObserver, AgreesWithTheEvaluatorAndTheExactStepResponse) {
   const auto problem = problem_of_test();
-  const auto law = reference::cautious_law();
+  const auto controller = reference::cautious_gains();
   StageObserver observer(problem, problem.plant, WindTable(problem), move);
-  const auto seen = observer.observe({law, false, false});
+  const auto seen = observer.observe({controller, false, false});
   auto evaluator = make_evaluator(problem);
-  const auto evaluation = evaluator.evaluate(law, false);
+  const auto evaluation = evaluator.evaluate(controller, false);
   EXPECT_TRUE(seen.stable);
-  EXPECT_NEAR(seen.still.valve_command, std::sqrt(evaluation.effort_variance),
-              2e-3 * seen.still.valve_command);
-  EXPECT_NEAR(seen.beam_rms, std::sqrt(evaluation.beam_variance()), 1e-3 * seen.beam_rms);
+  EXPECT_NEAR(seen.calm.valve_command, std::sqrt(evaluation.effort_variance),
+              2e-3 * seen.calm.valve_command);
+  EXPECT_NEAR(seen.boresight_rms, std::sqrt(evaluation.boresight_variance()),
+              1e-3 * seen.boresight_rms);
   EXPECT_NEAR(seen.peak,
               std::max({evaluation.highest_peak(control::LoopBreak::rate_loop_alone),
                         evaluation.highest_peak(control::LoopBreak::valve_command),
                         evaluation.highest_peak(control::LoopBreak::position_loop)}),
               1e-3);
 
-  const auto exact = control::step_characteristics(reference::command_to_encoder(problem, law),
-                                                   {.settling_band = 0.05});
+  const auto exact = control::step_characteristics(
+      reference::command_to_encoder(problem, controller), {.settling_band = 0.05});
   EXPECT_NEAR(seen.rise_time, exact.rise_time, 1e-3 * exact.rise_time);
   EXPECT_NEAR(seen.overshoot, exact.overshoot, 1e-3);
   EXPECT_NEAR(seen.settling_time, exact.settling_time, 2e-2 * exact.settling_time);
@@ -84,30 +85,30 @@ TEST(StageObserver, AgreesWithTheEvaluatorAndTheExactStepResponse) {
 
 TEST(StageObserver, KnowsWhatAnAccelerationAndItsFeedforwardLeave) {
   const auto problem = problem_of_test();
-  const auto law = pressure_law();
+  const auto controller = pressure_controller();
   // So long a ramp that the error settles: acceleration over kp wip (the loop's acceleration
   // constant, the rate loop's own integral making its gain 1).
   const double acceleration = 0.01;
   StageObserver observer(problem, problem.plant, WindTable(problem),
                          {acceleration * 200.0, acceleration});
-  const double left = observer.observe({law, false, false}).move_error;
-  const double settled = acceleration / (gain_of(law, "kp") * gain_of(law, "wip"));
+  const double left = observer.observe({controller, false, false}).move_error;
+  const double settled = acceleration / (gain_of(controller, "kp") * gain_of(controller, "wip"));
   EXPECT_GT(left, 0.98 * settled);
   EXPECT_LT(left, 1.5 * settled);  // it swings into that
-  EXPECT_LT(observer.observe({law, false, true}).move_error, 0.3 * left);
+  EXPECT_LT(observer.observe({controller, false, true}).move_error, 0.3 * left);
 }
 
 TEST(StageObserver, HasNothingToSayOfAPositionLoopThatIsOpen) {
   const auto problem = problem_of_test();
   StageObserver observer(problem, problem.plant, WindTable(problem), move);
-  const auto seen = observer.observe({pressure_law(), true, false});
+  const auto seen = observer.observe({pressure_controller(), true, false});
   EXPECT_TRUE(seen.stable);
-  EXPECT_TRUE(std::isnan(seen.beam_rms));
-  EXPECT_TRUE(std::isnan(seen.still.encoder_error));
+  EXPECT_TRUE(std::isnan(seen.boresight_rms));
+  EXPECT_TRUE(std::isnan(seen.calm.encoder_error));
   EXPECT_TRUE(std::isnan(seen.move_error));
-  EXPECT_GT(seen.still.tachometer, problem.noise.tachometer_rms * 0.5);
-  EXPECT_GT(seen.windy.torque, seen.still.torque);
-  ControlLaw wild = pressure_law();
+  EXPECT_GT(seen.calm.tachometer, problem.noise.tachometer_rms * 0.5);
+  EXPECT_GT(seen.windy.torque, seen.calm.torque);
+  Controller wild = pressure_controller();
   wild.gains[0] *= 50.0;
   const auto lost = observer.observe({wild, true, false});
   EXPECT_FALSE(lost.stable);
@@ -121,7 +122,7 @@ TEST(PlantBand, IsStudentsIntervalForOneMorePlant) {
   const auto linear = plant_band(0.5, {-1.0, 0.0, 1.0, 2.0}, 0.5);
   EXPECT_EQ(linear.lower, 0.0);
   EXPECT_EQ(linear.upper, 2.0);  // 0.5 + 0.765 sqrt(5/3 5/4) is within the plants' own
-  EXPECT_EQ(linear.least, -1.0);
+  EXPECT_EQ(linear.minimum, -1.0);
   const double e = std::exp(1.0);
   const auto logarithmic = plant_band(1.0, {1.0, e, e * e}, 0.99);
   // t of 2 degrees at 99.5 %: 9.924843; mean 1, deviation 1.
@@ -135,8 +136,8 @@ TEST(PlantBand, IsStudentsIntervalForOneMorePlant) {
 }
 
 TEST(CommissioningPath, PutsWhatIsNotThereWhereItDoesNothing) {
-  const ControlLaw pi{LoopStructure::named("PI-0"), {0.2, 1.0, 0.3, 0.05}};
-  const auto within = law_within(pi, compliance_law());
+  const Controller pi{LoopStructure::named("PI-0"), {0.2, 1.0, 0.3, 0.05}};
+  const auto within = controller_within(pi, compliance_law());
   ASSERT_TRUE(within.has_value());
   EXPECT_FALSE(within->structure.has(control::LoopPath::pressure));
   EXPECT_FALSE(within->structure.has(control::LoopPath::compliance));
@@ -148,36 +149,36 @@ TEST(CommissioningPath, PutsWhatIsNotThereWhereItDoesNothing) {
   const auto other = control::compensator_response(*within, 3.0);
   EXPECT_NEAR(std::abs(other.rate / one.rate), 1.0, 0.01);
   EXPECT_EQ(one.position, other.position);
-  EXPECT_FALSE(law_within(compliance_law(), pi).has_value());
+  EXPECT_FALSE(controller_within(compliance_law(), pi).has_value());
   EXPECT_EQ(detuned(pi, 2.0, 4.0).gains, (std::vector<double>{0.1, 1.0, 0.075, 0.0125}));
 }
 
-void expect_orderly(const CommissioningPlan& plan, const ControlLaw& target, double limit) {
+void expect_orderly(const CommissioningPlan& plan, const Controller& target, double limit) {
   ASSERT_GE(plan.stages.size(), 4u);
   EXPECT_EQ(plan.stages.back().kind, StageKind::feedforward);
-  EXPECT_TRUE(plan.stages.back().law.feedforward);
-  EXPECT_EQ(plan.stages.back().law.law.gains, target.gains);
+  EXPECT_TRUE(plan.stages.back().controller.feedforward);
+  EXPECT_EQ(plan.stages.back().controller.controller.gains, target.gains);
   bool closed = false;
   std::map<std::string, double> direction;
-  const ControlLaw* before = nullptr;
+  const Controller* before = nullptr;
   for (const auto& stage : plan.stages) {
     if (stage.kind == StageKind::as_found) continue;
     const bool open =
         stage.kind == StageKind::rate_loop || stage.kind == StageKind::pressure_feedback;
-    EXPECT_EQ(stage.law.position_open, open);
+    EXPECT_EQ(stage.controller.position_open, open);
     EXPECT_FALSE(open && closed) << "the position loop was closed before";
     closed = closed || !open;
     EXPECT_EQ(stage.expected.stable, stage.expected.plants);
     EXPECT_LE(stage.expected.peak.largest, limit * 1.0001);
     EXPECT_GE(stage.abort.overshoot, stage.expected.overshoot.largest);
-    EXPECT_GE(stage.abort.still_valve_rms, stage.expected.still_valve.largest);
+    EXPECT_GE(stage.abort.calm_valve_rms, stage.expected.calm_valve.largest);
     EXPECT_GE(stage.abort.gain_reserve, 1.0);
     if (before != nullptr) {
-      const auto& gains = stage.law.law.structure.gains();
+      const auto& gains = stage.controller.controller.structure.gains();
       for (std::size_t i = 0; i < gains.size(); ++i) {
         const double last = gain_of(*before, gains[i].symbol);
         if (std::isnan(last)) continue;  // its path has just come in
-        const double change = std::log(stage.law.law.gains[i] / last);
+        const double change = std::log(stage.controller.controller.gains[i] / last);
         EXPECT_LE(std::abs(change), std::log(plan.largest_step) * 1.0001) << gains[i].symbol;
         if (std::abs(change) < 1e-12) continue;
         double& way = direction[gains[i].symbol];
@@ -185,7 +186,7 @@ void expect_orderly(const CommissioningPlan& plan, const ControlLaw& target, dou
         way = change;
       }
     }
-    before = &stage.law.law;
+    before = &stage.controller.controller;
   }
 }
 
@@ -193,35 +194,36 @@ TEST(Commissioning, GoesFromGainsFoundToTheTunedOnesInOrder) {
   const auto problem = problem_of_test();
   const auto members = few_members(problem);
   const auto target = compliance_law();
-  const ControlLaw found{LoopStructure::named("PI-0"), {0.1, 1.5, 0.06, 0.01}};
+  const Controller found{LoopStructure::named("PI-0"), {0.1, 1.5, 0.06, 0.01}};
   const auto plan = plan_commissioning(problem, members, found, target, move);
   EXPECT_FALSE(plan.detuning.has_value());
   EXPECT_THAT(plan.remarks, testing::IsEmpty());
   ASSERT_EQ(plan.stages[0].kind, StageKind::as_found);
-  EXPECT_EQ(plan.stages[0].law.law.gains, found.gains);
+  EXPECT_EQ(plan.stages[0].controller.controller.gains, found.gains);
   EXPECT_EQ(plan.stages[1].kind, StageKind::rate_loop);
-  EXPECT_EQ(gain_of(plan.stages[1].law.law, "kr"), 0.1);
+  EXPECT_EQ(gain_of(plan.stages[1].controller.controller, "kr"), 0.1);
   expect_orderly(plan, target, 2.5);
   // The first position stage closes the loop at the gains found.
   for (const auto& stage : plan.stages) {
     if (stage.kind != StageKind::position_loop) continue;
-    EXPECT_EQ(gain_of(stage.law.law, "kp"), 0.06);
+    EXPECT_EQ(gain_of(stage.controller.controller, "kp"), 0.06);
     EXPECT_EQ(stage.step, 1);
     break;
   }
   // What it is done for.
-  EXPECT_LT(plan.stages.back().expected.beam_rms.largest,
-            plan.stages.front().expected.beam_rms.least);
+  EXPECT_LT(plan.stages.back().expected.boresight_rms.largest,
+            plan.stages.front().expected.boresight_rms.minimum);
 }
 
 TEST(Commissioning, StartsFromDetunedGainsWhereNoneAreKnown) {
   const auto problem = problem_of_test();
   const auto members = few_members(problem);
-  const auto target = pressure_law();
+  const auto target = pressure_controller();
   const auto plan = plan_commissioning(problem, members, std::nullopt, target, move);
   ASSERT_TRUE(plan.detuning.has_value());
   EXPECT_EQ(plan.stages[0].kind, StageKind::rate_loop);
-  EXPECT_DOUBLE_EQ(gain_of(plan.stages[0].law.law, "kr"), gain_of(target, "kr") / *plan.detuning);
+  EXPECT_DOUBLE_EQ(gain_of(plan.stages[0].controller.controller, "kr"),
+                   gain_of(target, "kr") / *plan.detuning);
   expect_orderly(plan, target, 2.5);
   // The same for three threads, and with smaller steps there are more stages.
   const auto threads =
@@ -236,15 +238,15 @@ TEST(Commissioning, StartsFromDetunedGainsWhereNoneAreKnown) {
 TEST(Commissioning, SaysWhyItStartsAfresh) {
   const auto problem = problem_of_test();
   const auto members = few_members(problem);
-  const ControlLaw other{LoopStructure::named("LL"), {0.1, 1.5, 50.0, 300.0, 0.06, 0.01}};
-  const auto plan = plan_commissioning(problem, members, other, pressure_law(), move);
+  const Controller other{LoopStructure::named("LL"), {0.1, 1.5, 50.0, 300.0, 0.06, 0.01}};
+  const auto plan = plan_commissioning(problem, members, other, pressure_controller(), move);
   ASSERT_EQ(plan.remarks.size(), 1u);
-  EXPECT_THAT(plan.remarks[0], HasSubstr("parts that the law chosen has not"));
+  EXPECT_THAT(plan.remarks[0], HasSubstr("parts that the controller chosen has not"));
   EXPECT_TRUE(plan.detuning.has_value());
-  const ControlLaw hot{LoopStructure::named("PI-0"), {0.9, 2.0, 0.06, 0.01}};
-  const auto from_hot = plan_commissioning(problem, members, hot, pressure_law(), move);
+  const Controller hot{LoopStructure::named("PI-0"), {0.9, 2.0, 0.06, 0.01}};
+  const auto from_hot = plan_commissioning(problem, members, hot, pressure_controller(), move);
   ASSERT_EQ(from_hot.remarks.size(), 1u);
-  EXPECT_THAT(from_hot.remarks[0], HasSubstr("as found has a peak of S above 2.5"));
+  EXPECT_THAT(from_hot.remarks[0], HasSubstr("as found has an Ms above 2.5"));
   EXPECT_FALSE(from_hot.stages[0].expected.all_stable());
   // The plan's peaks are those of its own stages.
   double largest = 0.0;
@@ -269,22 +271,24 @@ TEST(Commissioning, SaysWhatIsWrong) {
   const auto problem = problem_of_test();
   const auto members = few_members(problem);
   const auto refusal = [&](const CommissioningOptions& options) {
-    return message_of<InvalidInput>(
-        [&] { plan_commissioning(problem, members, std::nullopt, pressure_law(), move, options); });
+    return message_of<InvalidInput>([&] {
+      plan_commissioning(problem, members, std::nullopt, pressure_controller(), move, options);
+    });
   };
   EXPECT_THAT(refusal({.largest_step = 1.0}), HasSubstr("a largest step above 1, at most 10"));
   EXPECT_THAT(refusal({.abort_peak = 2.0}), HasSubstr("found 2, 2.5 and 2, 0.05 and 1.2"));
   EXPECT_THAT(refusal({.rms_allowance = 0.5}), HasSubstr("1 for rms"));
   EXPECT_THAT(refusal({.confidence = 99.0}), HasSubstr("confidence within (0, 1), found 99"));
-  EXPECT_THAT(message_of<InvalidInput>(
-                  [&] { plan_commissioning(problem, {}, std::nullopt, pressure_law(), move); }),
-              HasSubstr("at least 3 plants that may be the true one, found 0"));
-  ControlLaw wild = pressure_law();
+  EXPECT_THAT(message_of<InvalidInput>([&] {
+                plan_commissioning(problem, {}, std::nullopt, pressure_controller(), move);
+              }),
+              HasSubstr("at least 3 ensemble members, found 0"));
+  Controller wild = pressure_controller();
   wild.gains[0] *= 50.0;
   EXPECT_THAT(message_of<InfeasibleRequirement>(
                   [&] { plan_commissioning(problem, members, std::nullopt, wild, move); }),
-              StartsWith("the law chosen is unstable on a plant that may be the true one"));
-  EXPECT_THROW(plan_commissioning(problem, members, std::nullopt, pressure_law(), move,
+              StartsWith("the controller chosen is unstable on an ensemble member"));
+  EXPECT_THROW(plan_commissioning(problem, members, std::nullopt, pressure_controller(), move,
                                   {.stop = [] { return true; }}),
                Interrupted);
 }

@@ -14,16 +14,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-double normal_share(double z) {
+double normal_fraction(double z) {
   return 0.5 * std::erfc(-z / std::sqrt(2.0));
 }
 
 // Pairs of normal numbers with means 0 and `gap`, deviations 1 and `deviation`, correlated.
-Eigen::MatrixXd normal_pairs(Eigen::Index draws, double gap, double deviation, double correlation,
-                             std::uint64_t seed) {
+Eigen::MatrixXd normal_pairs(Eigen::Index random_samples, double gap, double deviation,
+                             double correlation, std::uint64_t seed) {
   const numerics::NormalNumbers numbers(seed);
-  Eigen::MatrixXd result(draws, 2);
-  for (Eigen::Index n = 0; n < draws; ++n) {
+  Eigen::MatrixXd result(random_samples, 2);
+  for (Eigen::Index n = 0; n < random_samples; ++n) {
     const std::complex<double> pair = numbers.pair(static_cast<std::uint64_t>(n));
     result(n, 0) = pair.real();
     result(n, 1) = gap + deviation * (correlation * pair.real() +
@@ -40,7 +40,7 @@ double coverage(Make make, double truth, double confidence, double tie_tolerance
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
     const auto found = compare_options(make(seed), {.confidence = confidence,
                                                     .tie_tolerance = tie_tolerance,
-                                                    .quantile_shares = {}})
+                                                    .quantile_fractions = {}})
                            .pairs[0]
                            .better;
     within += found.lower <= truth && truth <= found.upper;
@@ -62,7 +62,7 @@ TEST(DecisionStatistics, SaysHowProbablyOneIsBetterAsOftenRightAsItClaims) {
             [&](std::uint64_t seed) {
               return normal_pairs(80, gap, deviation, correlation, seed * 16 + 5);
             },
-            normal_share(gap / spread), confidence);
+            normal_fraction(gap / spread), confidence);
         EXPECT_NEAR(one, confidence, 0.06) << "gap " << gap << ", correlation " << correlation;
         sum += one;
       }
@@ -74,8 +74,8 @@ TEST(DecisionStatistics, SaysHowProbablyOneIsBetterAsOftenRightAsItClaims) {
 TEST(DecisionStatistics, CountsTiesHalfAndStaysCalibratedWithThem) {
   // Outcomes closer than 0.5 tie: P(d < -0.5) + P(|d| < 0.5)/2 with d normal, mean 0.4, sqrt(2).
   const double root = std::sqrt(2.0);
-  const double losses = normal_share((-0.5 - 0.4) / root);
-  const double wins = 1.0 - normal_share((0.5 - 0.4) / root);
+  const double losses = normal_fraction((-0.5 - 0.4) / root);
+  const double wins = 1.0 - normal_fraction((0.5 - 0.4) / root);
   const double truth = wins + 0.5 * (1.0 - wins - losses);
   const double found = coverage(
       [](std::uint64_t seed) { return normal_pairs(100, 0.4, 1.0, 0.0, seed); }, truth, 0.95, 0.5);
@@ -104,9 +104,9 @@ TEST(DecisionStatistics, KnowsJeffreysIntervals) {
   EXPECT_EQ(all.upper, 1.0);
   EXPECT_NEAR(all.lower, 0.7828037324908, 1e-9);
   scores.head(2).setZero();
-  const auto most = mean_score(scores, 0.95);
-  EXPECT_NEAR(most.lower, 0.4972255035600, 1e-9);
-  EXPECT_NEAR(most.upper, 0.9559405864473, 1e-9);
+  const auto maximum = mean_score(scores, 0.95);
+  EXPECT_NEAR(maximum.lower, 0.4972255035600, 1e-9);
+  EXPECT_NEAR(maximum.upper, 0.9559405864473, 1e-9);
   const auto none = mean_score(Eigen::ArrayXd::Zero(10), 0.95);
   EXPECT_EQ(none.lower, 0.0);
   EXPECT_NEAR(none.upper, 1.0 - all.lower, 1e-12);
@@ -125,7 +125,7 @@ TEST(DecisionStatistics, KnowsWhoIsBestAndWhatTheOthersLose) {
       2.0, 2.0, 2.0;
   const auto result = compare_options(outcomes);
   ASSERT_EQ(result.options.size(), 3u);
-  EXPECT_EQ(result.draws, 4u);
+  EXPECT_EQ(result.random_samples, 4u);
   EXPECT_NEAR(result.options[0].best.value, (1.0 + 0.0 + 1.0 + 1.0 / 3.0) / 4.0, 1e-15);
   EXPECT_NEAR(result.options[1].best.value, (0.0 + 0.5 + 0.0 + 1.0 / 3.0) / 4.0, 1e-15);
   EXPECT_EQ(result.options[0].expected_regret, 0.25);
@@ -170,15 +170,15 @@ TEST(DecisionStatistics, OrdersDistributionsByDominance) {
     const auto pair = compare_options(outcomes).pairs[0];
     return forward ? pair.first_over_second : pair.second_over_first;
   };
-  EXPECT_EQ(verdict({1, 2, 3}, {1, 2, 4}, true), Dominance::in_every_draw);
+  EXPECT_EQ(verdict({1, 2, 3}, {1, 2, 4}, true), Dominance::in_every_sample);
   EXPECT_EQ(verdict({1, 2, 3}, {1, 2, 4}, false), Dominance::none);
   EXPECT_EQ(verdict({1, 2, 3}, {2, 1, 4}, true), Dominance::first_order);
   EXPECT_EQ(verdict({2, 2, 2}, {1, 2, 3}, true), Dominance::second_order);  // same mean, no risk
   EXPECT_EQ(verdict({2, 2, 2}, {1, 2, 3}, false), Dominance::none);
   EXPECT_EQ(verdict({2, 2, 2.5}, {1, 1, 3}, true), Dominance::none);
   EXPECT_EQ(verdict({1, 2, 3}, {3, 1, 2}, true), Dominance::none);  // one distribution
-  EXPECT_EQ(verdict({1, 2, infinity}, {2, 2, infinity}, true), Dominance::in_every_draw);
-  EXPECT_EQ(to_string(Dominance::in_every_draw), "in every draw");
+  EXPECT_EQ(verdict({1, 2, infinity}, {2, 2, infinity}, true), Dominance::in_every_sample);
+  EXPECT_EQ(to_string(Dominance::in_every_sample), "in every sample");
   EXPECT_EQ(to_string(Dominance::second_order), "second order");
 }
 
@@ -229,15 +229,15 @@ TEST(DecisionStatistics, SaysWhatIsWrong) {
   Eigen::MatrixXd bad = fine;
   bad(2, 1) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal([&] { compare_options(bad); }),
-              HasSubstr("+infinity (failed) as outcomes, found nan in draw 2 of option 1"));
+              HasSubstr("+infinity (failed) as outcomes, found nan in sample 2 of option 1"));
   bad(2, 1) = -infinity;
   EXPECT_THAT(refusal([&] { compare_options(bad); }), HasSubstr("found -inf"));
   EXPECT_THAT(refusal([&] { compare_options(fine, {.confidence = 1.0}); }),
               HasSubstr("compare_options: expected a confidence within (0, 1), found 1"));
   EXPECT_THAT(refusal([&] { compare_options(fine, {.tie_tolerance = -1.0}); }),
               HasSubstr("a tie tolerance of at least 0, found -1"));
-  EXPECT_THAT(refusal([&] { compare_options(fine, {.quantile_shares = {50.0}}); }),
-              HasSubstr("quantile shares within (0, 1), found 50"));
+  EXPECT_THAT(refusal([&] { compare_options(fine, {.quantile_fractions = {50.0}}); }),
+              HasSubstr("quantile fractions within (0, 1), found 50"));
   EXPECT_THAT(refusal([] { mean_score(Eigen::ArrayXd(0), 0.95); }), HasSubstr("found 0 scores"));
   EXPECT_THAT(refusal([] { mean_score(Eigen::ArrayXd::Constant(3, 1.1), 0.95); }),
               HasSubstr("all within [0, 1]"));

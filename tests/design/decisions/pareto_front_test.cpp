@@ -40,7 +40,7 @@ TEST(ParetoFront, CountsTheDrawsInWhichAnOptionStands) {
       1.0, 2.0, 3.0,            // the cheapest alone
       2.0, 2.0, 1.0,            // cheapest and dearest
       2.0, 1.0, 1.0;            // cheapest and middle
-  EXPECT_THAT(front_shares({0.0, 1.0, 2.0}, quantities), ElementsAre(1.0, 0.5, 0.5));
+  EXPECT_THAT(front_fractions({0.0, 1.0, 2.0}, quantities), ElementsAre(1.0, 0.5, 0.5));
 }
 
 TEST(ParetoFront, SaysWhatIsWrong) {
@@ -58,10 +58,10 @@ TEST(ParetoFront, SaysWhatIsWrong) {
               HasSubstr("found NaN in point 1"));
   EXPECT_THAT(refusal([] { pareto_front({{0.0, no_number}}); }), HasSubstr("NaN in point 0"));
   EXPECT_THAT(refusal([] {
-                front_shares({1.0, 2.0}, Eigen::MatrixXd::Ones(3, 1));
+                front_fractions({1.0, 2.0}, Eigen::MatrixXd::Ones(3, 1));
               }),
               HasSubstr("of 2 options (columns), as many as costs, found 3 x 1"));
-  EXPECT_THAT(refusal([] { front_shares({1.0}, Eigen::MatrixXd(0, 1)); }),
+  EXPECT_THAT(refusal([] { front_fractions({1.0}, Eigen::MatrixXd(0, 1)); }),
               HasSubstr("found 0 x 1"));
 }
 
@@ -93,7 +93,7 @@ TEST(Tornado, SaysWhatIsWrong) {
     tornado(2, [](const auto& x) { return x[1] > 0.9 ? no_number : 1.0; });
     FAIL() << "nothing was thrown";
   } catch (const NumericalFailure& failure) {
-    EXPECT_THAT(failure.what(), HasSubstr("not finite with input 1 at its share 0.95"));
+    EXPECT_THAT(failure.what(), HasSubstr("not finite with input 1 at its fraction 0.95"));
   }
 }
 

@@ -17,8 +17,8 @@ constexpr double lost = std::numeric_limits<double>::infinity();
 OptionStatistics option(double scale, double failing) {
   Eigen::MatrixXd losses(1000, 1);
   for (Eigen::Index i = 0; i < losses.rows(); ++i) {
-    const double share = (static_cast<double>(i) + 0.5) / 1000.0;
-    losses(i, 0) = share < 1.0 - failing ? scale * (1.0 + share) : lost;
+    const double fraction = (static_cast<double>(i) + 0.5) / 1000.0;
+    losses(i, 0) = fraction < 1.0 - failing ? scale * (1.0 + fraction) : lost;
   }
   return compare_options(losses).options[0];
 }

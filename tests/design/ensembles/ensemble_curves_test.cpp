@@ -38,14 +38,14 @@ bool same(const EnsembleBand& one, const EnsembleBand& other) {
 TEST(EnsembleCurves, ReachThePeaksAndRmsOfTheMembersAsJudged) {
   const TrackingProblem problem = coarse_problem();
   const auto members = three_members(problem);
-  const auto law = reference::cautious_law();
-  const EnsembleResult judged = judge(problem, members, law, {}, 1);
-  ASSERT_EQ(judged.stable, 3);
-  const auto curves = ensemble_curves(problem, members, law, judged, 15.0, 1);
+  const auto controller = reference::cautious_gains();
+  const EnsembleResult evaluated = evaluate(problem, members, controller, {}, 1);
+  ASSERT_EQ(evaluated.stable, 3);
+  const auto curves = ensemble_curves(problem, members, controller, evaluated, 15.0, 1);
   for (std::size_t b = 0; b < 3; ++b) {
     EXPECT_TRUE(within(curves.sensitivity.at(b)));
     double highest = 0.0;
-    for (const auto& member : judged.members) {
+    for (const auto& member : evaluated.members) {
       highest = std::max(highest, member.sensitivity_peaks.at(b));
     }
     EXPECT_EQ(curves.worst.at(b).peak, highest);
@@ -56,18 +56,18 @@ TEST(EnsembleCurves, ReachThePeaksAndRmsOfTheMembersAsJudged) {
   }
   ASSERT_EQ(curves.wind_speed.size(), 60);
   EXPECT_NEAR(curves.wind_speed[39], 10.0, 1e-12);
-  EXPECT_TRUE(within(curves.beam_rms));
-  EXPECT_NEAR(curves.beam_rms.nominal[39] / judged.members[0].beam_rms, 1.0, 5e-3);
-  EXPECT_NEAR(curves.beam_rms.lower[39] / judged.least_rms, 1.0, 5e-3);
-  EXPECT_NEAR(curves.beam_rms.upper[39] / judged.largest_rms, 1.0, 5e-3);
+  EXPECT_TRUE(within(curves.boresight_rms));
+  EXPECT_NEAR(curves.boresight_rms.nominal[39] / evaluated.members[0].boresight_rms, 1.0, 5e-3);
+  EXPECT_NEAR(curves.boresight_rms.lower[39] / evaluated.min_rms, 1.0, 5e-3);
+  EXPECT_NEAR(curves.boresight_rms.upper[39] / evaluated.largest_rms, 1.0, 5e-3);
 }
 
 TEST(EnsembleCurves, StepsLeadFromRestToTheCommand) {
   const TrackingProblem problem = coarse_problem();
   const auto members = three_members(problem);
-  const auto law = reference::cautious_law();
-  const auto curves =
-      ensemble_curves(problem, members, law, judge(problem, members, law, {}, 1), 15.0, 1);
+  const auto controller = reference::cautious_gains();
+  const auto curves = ensemble_curves(problem, members, controller,
+                                      evaluate(problem, members, controller, {}, 1), 15.0, 1);
   for (const auto* step : {&curves.rate_step, &curves.position_step}) {
     EXPECT_TRUE(within(step->response));
     EXPECT_EQ(step->time[0], 0.0);
@@ -81,18 +81,18 @@ TEST(EnsembleCurves, LeaveUnstableMembersOutOfTheirRanges) {
   const TrackingProblem problem = coarse_problem();
   auto members = three_members(problem);
   members.resize(1);
-  const auto law = reference::cautious_law();
-  const EnsembleResult judged = judge(problem, members, law, {}, 1);
-  const auto alone = ensemble_curves(problem, members, law, judged, 15.0, 1);
+  const auto controller = reference::cautious_gains();
+  const EnsembleResult evaluated = evaluate(problem, members, controller, {}, 1);
+  const auto alone = ensemble_curves(problem, members, controller, evaluated, 15.0, 1);
   members.push_back({"unstable", problem.plant});
-  EnsembleResult with_unstable = judged;
-  with_unstable.members.push_back(judged.members.front());
+  EnsembleResult with_unstable = evaluated;
+  with_unstable.members.push_back(evaluated.members.front());
   with_unstable.members.back().stable = false;
   members.back().plant.drive.oil_stiffness *= 0.1;
-  const auto two = ensemble_curves(problem, members, law, with_unstable, 15.0, 1);
+  const auto two = ensemble_curves(problem, members, controller, with_unstable, 15.0, 1);
   EXPECT_EQ(two.members, 2U);
   EXPECT_EQ(two.stable, 1U);
-  EXPECT_TRUE(same(two.beam_rms, alone.beam_rms));
+  EXPECT_TRUE(same(two.boresight_rms, alone.boresight_rms));
   EXPECT_TRUE(same(two.sensitivity[1], alone.sensitivity[1]));
   EXPECT_EQ(two.worst[1].member, "nominal");
 }
@@ -100,11 +100,11 @@ TEST(EnsembleCurves, LeaveUnstableMembersOutOfTheirRanges) {
 TEST(EnsembleCurves, AreTheSameForAnyNumberOfThreads) {
   const TrackingProblem problem = coarse_problem();
   const auto members = three_members(problem);
-  const auto law = reference::cautious_law();
-  const EnsembleResult judged = judge(problem, members, law, {}, 1);
-  const auto one = ensemble_curves(problem, members, law, judged, 15.0, 1);
-  const auto three = ensemble_curves(problem, members, law, judged, 15.0, 3);
-  EXPECT_TRUE(same(one.beam_rms, three.beam_rms));
+  const auto controller = reference::cautious_gains();
+  const EnsembleResult evaluated = evaluate(problem, members, controller, {}, 1);
+  const auto one = ensemble_curves(problem, members, controller, evaluated, 15.0, 1);
+  const auto three = ensemble_curves(problem, members, controller, evaluated, 15.0, 3);
+  EXPECT_TRUE(same(one.boresight_rms, three.boresight_rms));
   EXPECT_TRUE(same(one.position_step.response, three.position_step.response));
   for (std::size_t b = 0; b < 3; ++b) {
     EXPECT_TRUE(same(one.sensitivity.at(b), three.sensitivity.at(b)));
@@ -115,11 +115,11 @@ TEST(EnsembleCurves, AreTheSameForAnyNumberOfThreads) {
 TEST(EnsembleCurves, RefuseOtherMembersThanWereJudged) {
   const TrackingProblem problem = coarse_problem();
   const auto members = three_members(problem);
-  const auto law = reference::cautious_law();
-  EnsembleResult judged = judge(problem, members, law, {}, 1);
-  EXPECT_THROW(ensemble_curves(problem, members, law, judged, 0.0, 1), InvalidInput);
-  judged.members.pop_back();
-  EXPECT_THROW(ensemble_curves(problem, members, law, judged, 15.0, 1), InvalidInput);
+  const auto controller = reference::cautious_gains();
+  EnsembleResult evaluated = evaluate(problem, members, controller, {}, 1);
+  EXPECT_THROW(ensemble_curves(problem, members, controller, evaluated, 0.0, 1), InvalidInput);
+  evaluated.members.pop_back();
+  EXPECT_THROW(ensemble_curves(problem, members, controller, evaluated, 15.0, 1), InvalidInput);
 }
 
 TEST(HighestComparedSpeed, IncludesLimitsUpToThreeTimesTheMeanSpeed) {

@@ -10,7 +10,7 @@
 
 #include "design/reference_problem.hpp"
 #include "refused_call.hpp"
-#include <boresight/control/loops/loop_goals.hpp>
+#include <boresight/control/loops/loop_constraints.hpp>
 #include <boresight/design/ensembles/plant_ensemble.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/numerics/error.hpp>
@@ -31,11 +31,11 @@ TuningOptions quick(std::uint64_t seed = 1) {
   return options;
 }
 
-TuningOptions robust(SoftGoalKind kind, double quantile = 0.95) {
+TuningOptions robust(ObjectiveKind kind, double quantile = 0.95) {
   TuningOptions options = quick();
   options.starts = 3;
   options.members = reference_ensemble(reference::tracking_problem(), 1);
-  options.soft_goal = {kind, quantile};
+  options.objective = {kind, quantile};
   return options;
 }
 
@@ -91,33 +91,33 @@ TEST(RobustTuning, MendsTheNominalDesignThatFailsWhereLeakageIsLow) {
   const auto members = reference_ensemble(problem, 1);
   TuningOptions options;
   const TuningResult nominal = tune(problem, LoopStructure::pi_with_lag(), {}, options);
-  const EnsembleResult fails = judge(problem, members, nominal.law, {}, 1);
+  const EnsembleResult fails = evaluate(problem, members, nominal.controller, {}, 1);
   EXPECT_EQ(members[fails.worst].name, "low leakage");
-  EXPECT_GT(fails.members[fails.worst].worst_goal_ratio, 2.0);
-  EXPECT_LT(fails.within_goals, 10);
+  EXPECT_GT(fails.members[fails.worst].worst_constraint, 2.0);
+  EXPECT_LT(fails.within_constraints, 10);
 
   const TuningResult held =
-      tune(problem, LoopStructure::pi_with_lag(), {}, robust(SoftGoalKind::nominal));
+      tune(problem, LoopStructure::pi_with_lag(), {}, robust(ObjectiveKind::nominal));
   EXPECT_EQ(held.status, TuningStatus::optimal);
-  const EnsembleResult holds = judge(problem, members, held.law, {}, 1);
-  EXPECT_EQ(holds.within_goals, 30);
+  const EnsembleResult holds = evaluate(problem, members, held.controller, {}, 1);
+  EXPECT_EQ(holds.within_constraints, 30);
   EXPECT_EQ(holds.stable, 30);
   // At a price, of a quarter more rms on the nominal plant.
-  const double price =
-      std::sqrt(held.evaluation.beam_variance() / nominal.evaluation.beam_variance());
-  EXPECT_NEAR(price, 1.26, 0.02);
+  const double shadow_price =
+      std::sqrt(held.evaluation.boresight_variance() / nominal.evaluation.boresight_variance());
+  EXPECT_NEAR(shadow_price, 1.26, 0.02);
   // And by the certified peaks on the members that limit it.
-  EXPECT_FALSE(held.carried_members.empty());
-  EXPECT_LT(held.carried_members.size(), 12u);
+  EXPECT_FALSE(held.active_scenarios.empty());
+  EXPECT_LT(held.active_scenarios.size(), 12u);
   ASSERT_FALSE(held.limits.empty());
   EXPECT_FALSE(held.limits.front().member.empty());
   for (const auto& member : members) {
-    if (std::ranges::find(held.carried_members, member.name) == held.carried_members.end()) {
+    if (std::ranges::find(held.active_scenarios, member.name) == held.active_scenarios.end()) {
       continue;
     }
     TrackingProblem one = problem;
     one.plant = member.plant;
-    EXPECT_TRUE(verify(one, held.law, {}).passed) << member.name;
+    EXPECT_TRUE(verify(one, held.controller, {}).passed) << member.name;
   }
 }
 
@@ -129,23 +129,23 @@ TEST(RobustTuning, MakesEachSoftGoalLeastOfAll) {
     double nominal, expected, largest, high;
   };
   std::vector<Found> all;
-  for (const auto kind : {SoftGoalKind::nominal, SoftGoalKind::expected, SoftGoalKind::worst_case,
-                          SoftGoalKind::quantile}) {
+  for (const auto kind : {ObjectiveKind::nominal, ObjectiveKind::expected,
+                          ObjectiveKind::worst_case, ObjectiveKind::quantile}) {
     TuningOptions options = robust(kind, 0.9);
     options.members = members;
     const TuningResult result = tune(problem, LoopStructure::pressure_feedback(), {}, options);
     ASSERT_EQ(result.status, TuningStatus::optimal);
-    const EnsembleResult judged = judge(problem, members, result.law, {}, 1);
-    EXPECT_EQ(judged.within_goals, 12);
+    const EnsembleResult evaluated = evaluate(problem, members, result.controller, {}, 1);
+    EXPECT_EQ(evaluated.within_constraints, 12);
     std::vector<double> rms;
     double sum = 0.0;
-    for (const auto& member : judged.members) {
-      rms.push_back(member.beam_rms * problem.gear_ratio);
+    for (const auto& member : evaluated.members) {
+      rms.push_back(member.boresight_rms * problem.gear_ratio);
       sum += std::pow(rms.back(), 2);
     }
     std::ranges::sort(rms);
-    all.push_back(
-        {std::sqrt(result.evaluation.beam_variance()), std::sqrt(sum / 12.0), rms[11], rms[10]});
+    all.push_back({std::sqrt(result.evaluation.boresight_variance()), std::sqrt(sum / 12.0),
+                   rms[11], rms[10]});
     const std::array values{all.back().nominal, all.back().expected, all.back().largest,
                             all.back().high};
     EXPECT_LT(relative_error(result.soft_rms, values.at(static_cast<std::size_t>(kind))), 1e-5);
@@ -161,14 +161,14 @@ TEST(RobustTuning, MakesEachSoftGoalLeastOfAll) {
 }
 
 TEST(RobustTuning, GivesTheSameBytesOnEveryNumberOfThreads) {
-  TuningOptions options = robust(SoftGoalKind::worst_case);
+  TuningOptions options = robust(ObjectiveKind::worst_case);
   std::vector<TuningResult> results;
   for (const unsigned threads : {1u, 2u, 3u}) {
     options.threads = threads;
     results.push_back(tune(reference::tracking_problem(), LoopStructure::pi(), {}, options));
   }
   for (const auto& result : results) {
-    EXPECT_EQ(result.law.gains, results[0].law.gains);
+    EXPECT_EQ(result.controller.gains, results[0].controller.gains);
     EXPECT_EQ(result.evaluations, results[0].evaluations);
     EXPECT_EQ(result.soft_rms, results[0].soft_rms);
     EXPECT_EQ(result.starts_at_optimum, results[0].starts_at_optimum);
@@ -192,21 +192,22 @@ TEST(Tune, SaysWhatRelaxingAGoalBuys) {
       EXPECT_EQ(bound.gain, result.gains_at_bound.front());
     }
     for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
-      double price = 0.0;
-      for (const LimitingGoal& limit : result.limits) {
-        if (limit.goal.loop_break == control::loop_breaks[b]) price += limit.price;
+      double shadow_price = 0.0;
+      for (const ActiveConstraint& limit : result.limits) {
+        if (limit.goal.loop_break == control::loop_breaks[b]) shadow_price += limit.shadow_price;
       }
-      HardGoals relaxed;
+      Constraints relaxed;
       relaxed.sensitivity_peak[b] *= 1.01;
       TuningOptions again;
       again.starts = 0;
-      again.warm_starts = {result.law.gains};
+      again.warm_starts = {result.controller.gains};
       const TuningResult then = tune(problem, structure, relaxed, again);
       const double gained =
-          0.5 * std::log(result.evaluation.beam_variance() / then.evaluation.beam_variance()) /
+          0.5 *
+          std::log(result.evaluation.boresight_variance() / then.evaluation.boresight_variance()) /
           std::log(1.01);
       // A price is a derivative: the step has a curvature of its own.
-      EXPECT_NEAR(gained, price, 0.1 * price + 2e-3)
+      EXPECT_NEAR(gained, shadow_price, 0.1 * shadow_price + 2e-3)
           << to_string(structure) << " " << to_string(control::loop_breaks[b]);
     }
   }
@@ -214,44 +215,44 @@ TEST(Tune, SaysWhatRelaxingAGoalBuys) {
 
 TEST(Tune, NamesTheGoalsThatContradictOneAnother) {
   const TrackingProblem problem = reference::tracking_problem();
-  HardGoals goals;
+  Constraints goals;
   goals.bandwidth = 20.0;  // rad/s, above the antenna's modes
   const TuningResult result = tune(problem, LoopStructure::pi_with_lag(), goals, quick());
   EXPECT_EQ(result.status, TuningStatus::infeasible);
-  EXPECT_GT(result.worst_goal_ratio, 1.0);
+  EXPECT_GT(result.worst_constraint, 1.0);
   std::set<GoalKind> kinds;
-  double prices = 0.0;
+  double shadow_prices = 0.0;
   for (const auto& limit : result.limits) {
     kinds.insert(limit.goal.kind);
-    prices += limit.price;
-    EXPECT_NEAR(limit.goal.ratio, result.worst_goal_ratio, 1e-3);
+    shadow_prices += limit.shadow_price;
+    EXPECT_NEAR(limit.goal.ratio, result.worst_constraint, 1e-3);
   }
   EXPECT_TRUE(kinds.contains(GoalKind::bandwidth));
   EXPECT_TRUE(kinds.contains(GoalKind::sensitivity_peak));
-  EXPECT_NEAR(prices, 1.0, 1e-3);
+  EXPECT_NEAR(shadow_prices, 1.0, 1e-3);
   // It is the closest: with every limit relaxed by its ratio there is a law, with less there is
   // none from many starts.
   const auto relaxed = [&](double factor) {
-    HardGoals loose = goals;
+    Constraints loose = goals;
     for (double& peak : loose.sensitivity_peak) peak *= factor;
-    loose.valve_effort *= factor;
+    loose.control_effort *= factor;
     loose.bandwidth = 20.0 / factor;
     TuningOptions options = quick(7);
-    options.warm_starts = {result.law.gains};
+    options.warm_starts = {result.controller.gains};
     return tune(problem, LoopStructure::pi_with_lag(), loose, options).status;
   };
-  EXPECT_EQ(relaxed(1.002 * result.worst_goal_ratio), TuningStatus::optimal);
-  EXPECT_EQ(relaxed(0.97 * result.worst_goal_ratio), TuningStatus::infeasible);
+  EXPECT_EQ(relaxed(1.002 * result.worst_constraint), TuningStatus::optimal);
+  EXPECT_EQ(relaxed(0.97 * result.worst_constraint), TuningStatus::infeasible);
 }
 
-TEST(Tune, SaysOfAPlantThatNoLawStabilises) {
+TEST(Tune, SaysOfAPlantThatNoControllerStabilises) {
   // The rate loop cannot bear a gain of 20.
   std::vector<control::LoopBlock> blocks = LoopStructure::pi().blocks();
   blocks[0].gains[0].lower = 20.0;
   const LoopStructure stiff("stiff PI", blocks);
   const TuningResult result = tune(reference::tracking_problem(), stiff, {}, quick());
   EXPECT_EQ(result.status, TuningStatus::unstable);
-  EXPECT_TRUE(std::isinf(result.worst_goal_ratio));
+  EXPECT_TRUE(std::isinf(result.worst_constraint));
 }
 
 TEST(Tune, HoldsMarginsBandwidthAndGusts) {
@@ -260,32 +261,35 @@ TEST(Tune, HoldsMarginsBandwidthAndGusts) {
   const TuningResult free = tune(problem, structure, {}, quick());
   const Eigen::ArrayXd grid = analysis_grid(problem);
   const auto channels = control::make_channels(problem.plant, grid);
-  const auto phase = [&](const control::ControlLaw& law) {
-    return control::smallest_phase_margins(channels, problem.delay, law,
+  const auto phase = [&](const control::Controller& controller) {
+    return control::smallest_phase_margins(channels, problem.delay, controller,
                                            control::LoopBreak::position_loop)
         .front()
         .value;
   };
-  HardGoals goals;
-  goals.phase_margin[2] = 1.15 * phase(free.law);
+  Constraints goals;
+  goals.phase_margin[2] = 1.15 * phase(free.controller);
   const TuningResult held = tune(problem, structure, goals, quick());
   EXPECT_EQ(held.status, TuningStatus::optimal);
-  EXPECT_GE(phase(held.law), *goals.phase_margin[2] * (1.0 - 1e-6));
+  EXPECT_GE(phase(held.controller), *goals.phase_margin[2] * (1.0 - 1e-6));
   EXPECT_GT(held.soft_rms, free.soft_rms);
   // By the verification's own crossovers too, which the free law fails.
-  EXPECT_TRUE(verify(problem, held.law, goals).passed);
-  EXPECT_THAT(verify(problem, free.law, goals).failure, HasSubstr("phase margin at position loop"));
-  HardGoals others;
+  EXPECT_TRUE(verify(problem, held.controller, goals).passed);
+  EXPECT_THAT(verify(problem, free.controller, goals).failure,
+              HasSubstr("phase margin at position loop"));
+  Constraints others;
   others.gain_margin[1] = 3.0;
-  EXPECT_THAT(verify(problem, free.law, others).failure, HasSubstr("gain margin at valve command"));
+  EXPECT_THAT(verify(problem, free.controller, others).failure,
+              HasSubstr("gain margin at valve command"));
   others = {};
   others.bandwidth = 50.0;
-  EXPECT_THAT(verify(problem, free.law, others).failure, HasSubstr("bandwidth: |S|"));
+  EXPECT_THAT(verify(problem, free.controller, others).failure, HasSubstr("bandwidth: |S|"));
   others = {};
   others.gust_torque = 1.0;
-  EXPECT_THAT(verify(problem, free.law, others).failure, HasSubstr("motor torque in gusts: "));
+  EXPECT_THAT(verify(problem, free.controller, others).failure,
+              HasSubstr("motor torque in gusts: "));
 
-  HardGoals gusts;
+  Constraints gusts;
   gusts.gust_demand = 1e3;
   gusts.gust_torque = 1e5;
   const TuningResult known = tune(problem, structure, gusts, quick());
@@ -300,11 +304,11 @@ TEST(Tune, HoldsMarginsBandwidthAndGusts) {
   if (less.status == TuningStatus::optimal) {
     EXPECT_LE(peak_torque(less), *gusts.gust_torque * (1.0 + 1e-6));
   } else {
-    EXPECT_GT(less.worst_goal_ratio, 1.0);
+    EXPECT_GT(less.worst_constraint, 1.0);
   }
 }
 
-TEST(Tune, KeepsTheBestLawWhenItIsStopped) {
+TEST(Tune, KeepsTheBestControllerWhenItIsStopped) {
   const TrackingProblem problem = reference::tracking_problem();
   for (const int calls : {1, 60, 200}) {
     std::atomic<int> asked{0};
@@ -312,10 +316,10 @@ TEST(Tune, KeepsTheBestLawWhenItIsStopped) {
     options.stop = [&] { return ++asked > calls; };
     const TuningResult result = tune(problem, LoopStructure::pi(), {}, options);
     EXPECT_TRUE(result.interrupted);
-    EXPECT_LT(result.evaluations, calls + 60) << "what judging the found laws takes besides";
+    EXPECT_LT(result.evaluations, calls + 60) << "what judging the found controllers takes besides";
     if (result.status == TuningStatus::optimal) {
-      EXPECT_LE(result.worst_goal_ratio, 1.0 + 1e-9);
-      EXPECT_TRUE(verify(problem, result.law, {}).passed);
+      EXPECT_LE(result.worst_constraint, 1.0 + 1e-9);
+      EXPECT_TRUE(verify(problem, result.controller, {}).passed);
     }
     if (calls == 200) {
       EXPECT_EQ(result.status, TuningStatus::optimal);
@@ -323,24 +327,25 @@ TEST(Tune, KeepsTheBestLawWhenItIsStopped) {
   }
 }
 
-TEST(HardGoals, RefuseWhatNoLoopOrEveryLoopMeets) {
-  const auto refuses = [](const std::function<void(HardGoals&)>& change, const char* text) {
-    HardGoals goals;
+TEST(Constraints, RefuseWhatNoLoopOrEveryLoopMeets) {
+  const auto refuses = [](const std::function<void(Constraints&)>& change, const char* text) {
+    Constraints goals;
     change(goals);
     EXPECT_THAT(reference::Call([&] {
                   tune(reference::tracking_problem(), LoopStructure::pi(), goals, quick());
                 }),
                 ThrowsMessage<InvalidInput>(HasSubstr(text)));
   };
-  refuses([](HardGoals& goals) { goals.sensitivity_peak[1] = 1.0; }, "above 1 and finite, found 1");
-  refuses([](HardGoals& goals) { goals.valve_effort = 0.0; }, "valve_effort above 0");
-  refuses([](HardGoals& goals) { goals.gain_margin[0] = 0.5; }, "gain margin above 1");
-  refuses([](HardGoals& goals) { goals.phase_margin[2] = 4.0; }, "between 0 and pi rad, found 4");
-  refuses([](HardGoals& goals) { goals.bandwidth = -1.0; }, "bandwidth above 0");
-  refuses([](HardGoals& goals) { goals.gust_torque = std::nan(""); }, "gust_torque above 0");
-  refuses([](HardGoals& goals) { goals.crest_factor = 0.0; }, "crest_factor above 0");
+  refuses([](Constraints& goals) { goals.sensitivity_peak[1] = 1.0; },
+          "above 1 and finite, found 1");
+  refuses([](Constraints& goals) { goals.control_effort = 0.0; }, "valve_effort above 0");
+  refuses([](Constraints& goals) { goals.gain_margin[0] = 0.5; }, "gain margin above 1");
+  refuses([](Constraints& goals) { goals.phase_margin[2] = 4.0; }, "between 0 and pi rad, found 4");
+  refuses([](Constraints& goals) { goals.bandwidth = -1.0; }, "bandwidth above 0");
+  refuses([](Constraints& goals) { goals.gust_torque = std::nan(""); }, "gust_torque above 0");
+  refuses([](Constraints& goals) { goals.crest_factor = 0.0; }, "crest_factor above 0");
   TuningOptions options = quick();
-  options.soft_goal.quantile = 1.5;
+  options.objective.quantile = 1.5;
   EXPECT_THAT(reference::Call(
                   [&] { tune(reference::tracking_problem(), LoopStructure::pi(), {}, options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("quantile above 0 and at most 1, found 1.5")));
@@ -348,19 +353,20 @@ TEST(HardGoals, RefuseWhatNoLoopOrEveryLoopMeets) {
 
 TEST(Climate, IsTheExpectationOverItsWinds) {
   TrackingProblem problem = reference::tracking_problem();
-  const auto law = reference::cautious_law();
+  const auto controller = reference::cautious_gains();
   double expected = 0.0;
   for (const auto& [speed, weight] : {std::pair{6.0, 0.5}, {10.0, 0.3}, {15.0, 0.2}}) {
     TrackingProblem one = reference::tracking_problem();
     one.wind.mean_speed = speed;
-    expected += weight * make_evaluator(one).evaluate(law, false).wind_variance;
+    expected += weight * make_evaluator(one).evaluate(controller, false).wind_variance;
     problem.climate.push_back({one.wind, weight});
   }
-  EXPECT_LT(relative_error(make_evaluator(problem).evaluate(law, false).wind_variance, expected),
-            1e-12);
-  EXPECT_LT(verify(problem, law, {}).rms_disagreement, 5e-3);
+  EXPECT_LT(
+      relative_error(make_evaluator(problem).evaluate(controller, false).wind_variance, expected),
+      1e-12);
+  EXPECT_LT(verify(problem, controller, {}).rms_disagreement, 5e-3);
   auto adaptive = make_adaptive_evaluator(problem, WindTable(problem));
-  EXPECT_LT(relative_error(adaptive.evaluate(law, false).wind_variance, expected), 1e-5);
+  EXPECT_LT(relative_error(adaptive.evaluate(controller, false).wind_variance, expected), 1e-5);
   problem.climate[0].weight = 0.4;
   EXPECT_THAT(reference::Call([&] { WindTable table(problem); }),
               ThrowsMessage<InvalidInput>(HasSubstr("sum to 1, found 0.9")));

@@ -20,22 +20,23 @@ bool holds(const EstimatedNumber& estimate, double truth) {
 }
 
 // Inverse of the logistic law's distribution function, and its variance pi^2/3.
-double logistic(double share) {
-  return std::log(share / (1.0 - share));
+double logistic(double fraction) {
+  return std::log(fraction / (1.0 - fraction));
 }
 
 TEST(Probability, HoldsTheTruthInNinetyFivePerCentOfStudiesWhateverItIs) {
-  for (const std::uint64_t draws : {20, 100, 1000}) {
+  for (const std::uint64_t random_samples : {20, 100, 1000}) {
     for (const double truth : {0.001, 0.01, 0.1, 0.5, 0.9, 0.999}) {
-      const boost::math::binomial_distribution<double> law(static_cast<double>(draws), truth);
+      const boost::math::binomial_distribution<double> controller(
+          static_cast<double>(random_samples), truth);
       double covered = 0.0;
-      for (std::uint64_t hits = 0; hits <= draws; ++hits) {
-        if (holds(design::probability(hits, draws), truth)) {
-          covered += boost::math::pdf(law, static_cast<double>(hits));
+      for (std::uint64_t hits = 0; hits <= random_samples; ++hits) {
+        if (holds(design::probability(hits, random_samples), truth)) {
+          covered += boost::math::pdf(controller, static_cast<double>(hits));
         }
       }
-      EXPECT_GE(covered, 0.95) << truth << " of " << draws;
-      const bool many = static_cast<double>(draws) * std::min(truth, 1.0 - truth) > 50.0;
+      EXPECT_GE(covered, 0.95) << truth << " of " << random_samples;
+      const bool many = static_cast<double>(random_samples) * std::min(truth, 1.0 - truth) > 50.0;
       EXPECT_TRUE(!many || covered < 0.97) << covered;
     }
   }
@@ -59,11 +60,11 @@ TEST(Summary, HasTheClosedFormsOfEvenlySpacedNumbers) {
   std::iota(values.begin(), values.end(), 0.0);
   std::ranges::reverse(values);
   const auto summary = design::summarise(values, {0.25, 0.5});
-  EXPECT_EQ(summary.draws, 101U);
+  EXPECT_EQ(summary.random_samples, 101U);
   EXPECT_DOUBLE_EQ(summary.mean.value, 50.0);
   // n (n + 1)/12
   EXPECT_DOUBLE_EQ(summary.standard_deviation.value, std::sqrt(101.0 * 102.0 / 12.0));
-  EXPECT_EQ(summary.least, 0.0);
+  EXPECT_EQ(summary.minimum, 0.0);
   EXPECT_EQ(summary.largest, 100.0);
   EXPECT_DOUBLE_EQ(summary.quantiles[0].number.value, 25.0);
   EXPECT_DOUBLE_EQ(summary.quantiles[1].number.value, 50.0);

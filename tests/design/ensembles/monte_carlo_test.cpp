@@ -18,24 +18,24 @@ namespace {
 using design::MonteCarlo;
 using design::MonteCarloRun;
 using design::PlantOutcome;
-using design::Standing;
+using design::StabilityBasis;
 
 // The reference antenna with other oil, leakage and friction; wilder, where asked, than its law
 // bears.
 plant::AntennaPlant antenna_number(std::uint64_t index, double wildness) {
-  const auto share = [&](std::uint64_t input) {
+  const auto fraction = [&](std::uint64_t input) {
     return static_cast<double>(numerics::splitmix64(3, 3 * index + input) >> 11U) * 0x1p-53;
   };
   auto plant = reference::antenna();
-  plant.drive.oil_stiffness *= 0.8 + 0.5 * share(0);
-  plant.drive.leakage_rate *= 1.0 - (0.7 + 0.29 * wildness) * share(1);
-  plant.drive.viscous_friction = 12.0 * (1.0 - wildness) * share(2);
+  plant.drive.oil_stiffness *= 0.8 + 0.5 * fraction(0);
+  plant.drive.leakage_rate *= 1.0 - (0.7 + 0.29 * wildness) * fraction(1);
+  plant.drive.viscous_friction = 12.0 * (1.0 - wildness) * fraction(2);
   return plant;
 }
 
 MonteCarlo study(std::uint64_t plants, double wildness = 0.0) {
   return {.problem = reference::tracking_problem(),
-          .law = reference::cautious_law(),
+          .controller = reference::cautious_gains(),
           .goals = {},
           .plants = plants,
           .plant = [=](std::uint64_t index) { return antenna_number(index, wildness); }};
@@ -44,8 +44,8 @@ MonteCarlo study(std::uint64_t plants, double wildness = 0.0) {
 // A law that a share of the plants does not bear.
 MonteCarlo hot_study(std::uint64_t plants) {
   MonteCarlo hot = study(plants, 1.0);
-  hot.law.gains[0] *= 1.1;
-  hot.law.gains[1] *= 0.9;
+  hot.controller.gains[0] *= 1.1;
+  hot.controller.gains[1] *= 0.9;
   return hot;
 }
 
@@ -55,31 +55,31 @@ bool same(const PlantOutcome& one, const PlantOutcome& other) {
 
 TEST(MonteCarlo, AgreesWithTheIndependentAssessment) {
   const MonteCarlo hot = hot_study(40);
-  design::MonteCarloJudge judge(hot);
+  design::MonteCarloEvaluator evaluate(hot);
   int unstable = 0, broken = 0;
   for (std::uint64_t index = 0; index < hot.plants; ++index) {
-    const auto outcome = judge.judge(index);
+    const auto outcome = evaluate.evaluate(index);
     auto problem = hot.problem;
     problem.plant = hot.plant(index);
-    const auto verdict =
-        control::stability(problem.plant, hot.law, problem.delay, design::analysis_grid(problem));
+    const auto verdict = control::stability(problem.plant, hot.controller, problem.delay,
+                                            design::analysis_grid(problem));
     ASSERT_EQ(outcome.stable(), verdict.stable()) << index;
     if (!outcome.stable()) {
       ++unstable;
-      EXPECT_EQ(outcome.standing, Standing::unstable);
+      EXPECT_EQ(outcome.stability_basis, StabilityBasis::unstable);
       EXPECT_EQ(outcome.confirmed, 1U);
-      EXPECT_TRUE(std::isnan(outcome.beam_rms));
-      EXPECT_TRUE(std::isinf(outcome.worst_goal_ratio));
+      EXPECT_TRUE(std::isnan(outcome.boresight_rms));
+      EXPECT_TRUE(std::isinf(outcome.worst_constraint));
       continue;
     }
     if (index % 8 != 0) continue;
-    const auto assessed = design::assess(problem, hot.law, hot.goals);
-    EXPECT_NEAR(outcome.beam_rms / assessed.beam_rms, 1.0, 1e-4) << index;
-    EXPECT_NEAR(outcome.valve_effort / assessed.valve_effort, 1.0, 1e-4) << index;
+    const auto assessed = design::assess(problem, hot.controller, hot.goals);
+    EXPECT_NEAR(outcome.boresight_rms / assessed.boresight_rms, 1.0, 1e-4) << index;
+    EXPECT_NEAR(outcome.control_effort / assessed.control_effort, 1.0, 1e-4) << index;
     for (std::size_t b = 0; b < 3; ++b) {
       const auto& peak = assessed.verification.peaks.at(b);
       EXPECT_NEAR(outcome.sensitivity_peaks.at(b) / peak.upper, 1.0, 1e-4) << index;
-      const bool over = ((outcome.broken_goals >> b) & 1U) != 0;
+      const bool over = ((outcome.violated_constraints >> b) & 1U) != 0;
       EXPECT_EQ(over, peak.upper > hot.goals.sensitivity_peak.at(b)) << index;
       broken += over ? 1 : 0;
     }
@@ -127,7 +127,9 @@ TEST(MonteCarlo, ConfirmsASampleByEigenvalues) {
   for (std::uint64_t index = 0; index < calm.plants; ++index) {
     const auto& outcome = run.outcome(index);
     EXPECT_TRUE(index % 10 != 0 || outcome.confirmed != 0) << index;
-    EXPECT_EQ(outcome.confirmed == 0, outcome.standing == Standing::stable_by_winding) << index;
+    EXPECT_EQ(outcome.confirmed == 0,
+              outcome.stability_basis == StabilityBasis::stable_by_encirclements)
+        << index;
     EXPECT_EQ(outcome.contradicted, 0U);
   }
 }
@@ -141,18 +143,18 @@ TEST(MonteCarlo, TellsWhichGoalsBreak) {
       design::goal_names(windy.goals),
       testing::ElementsAre("sensitivity peak at rate loop alone",
                            "sensitivity peak at valve command", "sensitivity peak at position loop",
-                           "noise-driven valve effort", "phase margin at valve command",
+                           "noise-driven control effort", "phase margin at valve command",
                            "bandwidth at position loop", "motor torque in gusts"));
-  EXPECT_EQ(design::MonteCarloJudge(windy).judge(0).broken_goals, 0U);
+  EXPECT_EQ(design::MonteCarloEvaluator(windy).evaluate(0).violated_constraints, 0U);
   windy.goals.phase_margin = {std::nullopt, 3.0, std::nullopt};
-  windy.goals.valve_effort = 1e-6;
+  windy.goals.control_effort = 1e-6;
   windy.goals.gust_torque = 1e-3;
-  const auto outcome = design::MonteCarloJudge(windy).judge(0);
-  EXPECT_EQ(outcome.broken_goals, 0b1011000U);
-  EXPECT_GT(outcome.worst_goal_ratio, 1e4);
+  const auto outcome = design::MonteCarloEvaluator(windy).evaluate(0);
+  EXPECT_EQ(outcome.violated_constraints, 0b1011000U);
+  EXPECT_GT(outcome.worst_constraint, 1e4);
 }
 
-TEST(MonteCarlo, RetunesEachPlantToNoMoreThanTheHeldLaw) {
+TEST(MonteCarlo, RetunesEachPlantToNoMoreThanTheFixedController) {
   MonteCarlo calm = study(4);
   // A held law that meets the goals and is far from the best.
   calm.retune = true;
@@ -160,12 +162,12 @@ TEST(MonteCarlo, RetunesEachPlantToNoMoreThanTheHeldLaw) {
   run.work_on(run.missing_blocks(), {.threads = 2});
   for (std::uint64_t index = 0; index < calm.plants; ++index) {
     const auto& outcome = run.outcome(index);
-    EXPECT_EQ(outcome.broken_goals, 0U);
-    EXPECT_LT(outcome.retuned_rms, outcome.beam_rms) << index;
-    EXPECT_GT(outcome.retuned_rms, 0.1 * outcome.beam_rms) << index;
+    EXPECT_EQ(outcome.violated_constraints, 0U);
+    EXPECT_LT(outcome.retuned_rms, outcome.boresight_rms) << index;
+    EXPECT_GT(outcome.retuned_rms, 0.1 * outcome.boresight_rms) << index;
   }
   calm.retune = false;
-  EXPECT_TRUE(std::isnan(design::MonteCarloJudge(calm).judge(0).retuned_rms));
+  EXPECT_TRUE(std::isnan(design::MonteCarloEvaluator(calm).evaluate(0).retuned_rms));
 }
 
 TEST(MonteCarlo, SaysWhichPlantFailed) {

@@ -10,7 +10,7 @@ TEST(PlantMembers, AreCornersAndAHypercubeThatRepeatsWithItsSeed) {
   Mission mission = reference::demo_mission();
   const double leakage = mission.antenna.drive.leakage_rate;
   mission.uncertainty.ranges = {{0.9, 1.1}, {0.8, 1.33}, {0.3 * leakage, leakage}, {0.0, 10.0}};
-  mission.uncertainty.draws = 8;
+  mission.uncertainty.random_samples = 8;
   const auto members = plant_members(mission, 1);
   ASSERT_EQ(members.size(), 14U);
   const auto own = linear_plant(mission.antenna);

@@ -6,7 +6,7 @@
 #include "design/reference_problem.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/analysis/peak_gain.hpp>
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/numerics/error.hpp>
@@ -25,17 +25,18 @@ TrackingProblem problem_with_torque_noise() {
 }
 
 // The best known law of each structure under the default goals.
-std::vector<NamedLaw> tuned_laws() {
-  const auto law = [](const char* name, std::vector<double> gains) {
-    return NamedLaw{name, {control::LoopStructure::named(name), std::move(gains)}};
+std::vector<DescribedController> tuned_controllers() {
+  const auto controller = [](const char* name, std::vector<double> gains) {
+    return DescribedController{name, {control::LoopStructure::named(name), std::move(gains)}};
   };
-  return {law("PI", {0.158735, 0.420689, 2.62766, 10.2563, 0.235307}),
-          law("DPF", {3.12006, 0.117998, 300.0, 0.31395, 10.4535, 1.20058, 2.18349}),
-          law("LL", {0.367233, 0.196983, 3.05841, 47.1871, 2.63446, 3.0}),
-          law("FULL", {1.41584, 3.6698, 3.66983, 19.5576, 0.464795, 27.7097, 1.36296, 0.516357}),
-          law("PI+C", {0.737111, 0.01, 0.974395, 3.74484, 0.0001, 0.0172099, 4.30494}),
-          law("DPF+C",
-              {2.95643, 0.01, 300.0, 0.305674, 9.69483, 1.27419, 2.70872, 0.0105829, 0.822072})};
+  return {
+      controller("PI", {0.158735, 0.420689, 2.62766, 10.2563, 0.235307}),
+      controller("DPF", {3.12006, 0.117998, 300.0, 0.31395, 10.4535, 1.20058, 2.18349}),
+      controller("LL", {0.367233, 0.196983, 3.05841, 47.1871, 2.63446, 3.0}),
+      controller("FULL", {1.41584, 3.6698, 3.66983, 19.5576, 0.464795, 27.7097, 1.36296, 0.516357}),
+      controller("PI+C", {0.737111, 0.01, 0.974395, 3.74484, 0.0001, 0.0172099, 4.30494}),
+      controller("DPF+C",
+                 {2.95643, 0.01, 300.0, 0.305674, 9.69483, 1.27419, 2.70872, 0.0105829, 0.822072})};
 }
 
 plant::AntennaPlant with_structure_frequencies(double factor) {
@@ -47,7 +48,7 @@ plant::AntennaPlant with_structure_frequencies(double factor) {
 
 const PointingLimit& nominal_limit() {
   static const PointingLimit limit =
-      pointing_limit(problem_with_torque_noise(), {}, {}, tuned_laws());
+      pointing_limit(problem_with_torque_noise(), {}, {}, tuned_controllers());
   return limit;
 }
 
@@ -58,15 +59,15 @@ plant::StateSpace antenna_in_its_wind() {
 
 TEST(PointingLimit, LiesBelowEveryTunedStructureOfTheSameEffort) {
   const PointingLimit& limit = nominal_limit();
-  EXPECT_GT(limit.least_rms, 0.05 * reference::mdeg);
-  ASSERT_EQ(limit.laws.size(), 6U);
-  for (const LawAgainstLimit& law : limit.laws) {
-    const SampledResult& found = law.design.nominal;
-    EXPECT_TRUE(found.stable()) << law.name;
-    EXPECT_GT(law.least_rms, 0.0);
-    EXPECT_LT(law.least_rms, found.beam_rms) << law.name;
-    EXPECT_LT(limit.unconstrained.nominal.beam_rms, found.beam_rms) << law.name;
-    EXPECT_FALSE(law.to_robustified);
+  EXPECT_GT(limit.min_rms, 0.05 * reference::mdeg);
+  ASSERT_EQ(limit.controllers.size(), 6U);
+  for (const ControllerAgainstLimit& controller : limit.controllers) {
+    const SampledResult& found = controller.design.nominal;
+    EXPECT_TRUE(found.stable()) << controller.name;
+    EXPECT_GT(controller.min_rms, 0.0);
+    EXPECT_LT(controller.min_rms, found.boresight_rms) << controller.name;
+    EXPECT_LT(limit.unconstrained.nominal.boresight_rms, found.boresight_rms) << controller.name;
+    EXPECT_FALSE(controller.to_robustified);
   }
 }
 
@@ -74,8 +75,8 @@ TEST(PointingLimit, IsReachedByTheUnconstrainedController) {
   const PointingLimit& limit = nominal_limit();
   const SampledResult& found = limit.unconstrained.nominal;
   EXPECT_TRUE(found.stable());
-  EXPECT_NEAR(found.valve_effort / limit.effort_limit, 1.0, 1e-5);
-  EXPECT_NEAR(found.beam_rms / limit.least_rms, 1.0, 5e-5);
+  EXPECT_NEAR(found.control_effort / limit.effort_limit, 1.0, 1e-5);
+  EXPECT_NEAR(found.boresight_rms / limit.min_rms, 1.0, 5e-5);
   EXPECT_GT(found.peak.magnitude, 5.0);  // and by a controller that nobody should build
   // It agrees with the covariance of the loop as it is put together elsewhere, to what rounding
   // leaves of slow wind in it.
@@ -83,10 +84,10 @@ TEST(PointingLimit, IsReachedByTheUnconstrainedController) {
       {antenna_in_its_wind(), limit.unconstrained.controller, limit.computation_delay},
       problem_with_torque_noise().noise);
   const double ratio = reference::gear_ratio();
-  EXPECT_NEAR(other.beam_rms / ratio / found.beam_rms, 1.0, 2e-5);
+  EXPECT_NEAR(other.boresight_rms / ratio / found.boresight_rms, 1.0, 2e-5);
   EXPECT_NEAR(other.wind_rms / ratio / found.wind_rms, 1.0, 2e-5);
   EXPECT_NEAR(other.noise_rms / ratio / found.noise_rms, 1.0, 1e-6);
-  EXPECT_NEAR(other.valve_effort / found.valve_effort, 1.0, 1e-6);
+  EXPECT_NEAR(other.control_effort / found.control_effort, 1.0, 1e-6);
 }
 
 TEST(PointingLimit, LimitsThePeakAtTheValveAtAPrice) {
@@ -94,9 +95,9 @@ TEST(PointingLimit, LimitsThePeakAtTheValveAtAPrice) {
   ASSERT_TRUE(limit.margin_limited);
   const SampledDesign& design = limit.margin_limited->design;
   EXPECT_TRUE(design.nominal.stable());
-  EXPECT_LE(design.nominal.valve_effort, limit.effort_limit);
-  EXPECT_GT(design.nominal.beam_rms, limit.least_rms);
-  EXPECT_LT(design.nominal.beam_rms, 1.2 * limit.least_rms);
+  EXPECT_LE(design.nominal.control_effort, limit.effort_limit);
+  EXPECT_GT(design.nominal.boresight_rms, limit.min_rms);
+  EXPECT_LT(design.nominal.boresight_rms, 1.2 * limit.min_rms);
   // The peak over all frequencies, by bounds instead of a grid.
   const auto open = control::sampled_open_loop(
       {antenna_in_its_wind(), design.controller, limit.computation_delay}, "valve_command");
@@ -114,37 +115,38 @@ TEST(PointingLimit, LimitsThePeakAtTheValveAtAPrice) {
 
 TEST(PointingLimit, GivesEveryNumberItsRatiosAreMadeOf) {
   const PointingLimit& limit = nominal_limit();
-  for (const LawAgainstLimit& law : limit.laws) {
-    const SampledResult& found = law.design.nominal;
-    double least = 0.0;
+  for (const ControllerAgainstLimit& controller : limit.controllers) {
+    const SampledResult& found = controller.design.nominal;
+    double minimum = 0.0;
     for (const auto& point : limit.bound.points) {
-      least = std::max(least, point.cost - point.weight * std::pow(found.valve_effort, 2));
+      minimum = std::max(minimum, point.cost - point.weight * std::pow(found.control_effort, 2));
     }
-    EXPECT_DOUBLE_EQ(*law.to_least, found.beam_rms / std::sqrt(least));
-    EXPECT_DOUBLE_EQ(*law.to_margin_limited,
-                     found.beam_rms / limit.margin_limited->design.nominal.beam_rms);
-    EXPECT_DOUBLE_EQ(*law.to_encoder_held, found.beam_rms / limit.encoder_held_rms);
-    EXPECT_DOUBLE_EQ(*law.to_full_information, found.beam_rms / limit.full_information_rms);
+    EXPECT_DOUBLE_EQ(*controller.to_min, found.boresight_rms / std::sqrt(minimum));
+    EXPECT_DOUBLE_EQ(*controller.to_margin_limited,
+                     found.boresight_rms / limit.margin_limited->design.nominal.boresight_rms);
+    EXPECT_DOUBLE_EQ(*controller.to_flexure, found.boresight_rms / limit.flexure_rms);
+    EXPECT_DOUBLE_EQ(*controller.to_full_information,
+                     found.boresight_rms / limit.full_information_rms);
   }
-  EXPECT_LT(limit.full_information_rms, limit.least_rms);
+  EXPECT_LT(limit.full_information_rms, limit.min_rms);
 }
 
 TEST(PointingLimit, BoundsLessTheMoreEffortThereIs) {
   const EffortBound& bound = nominal_limit().bound;
   double last = 1.0;
   for (const double effort : {0.05, 0.2, 0.4, 0.6, 1.0}) {
-    const double least = bound.least_rms(effort);
-    EXPECT_LT(least, last);
-    last = least;
+    const double minimum = bound.min_rms(effort);
+    EXPECT_LT(minimum, last);
+    last = minimum;
   }
-  EXPECT_EQ(bound.least_rms(100.0), 0.0);
+  EXPECT_EQ(bound.min_rms(100.0), 0.0);
 }
 
 // The bending alone is a resonator on the wind's spectrum; with rigid springs nothing is left.
 TEST(PointingLimit, SeesTheBendingThatNoEncoderSees) {
   TrackingProblem problem = problem_with_torque_noise();
-  const double held = encoder_held_rms(problem);
-  EXPECT_NEAR(held / nominal_limit().encoder_held_rms, 1.0, 1e-12);
+  const double held = flexure_rms(problem);
+  EXPECT_NEAR(held / nominal_limit().flexure_rms, 1.0, 1e-12);
   // Static bending under the rms of the gusts, and what the resonances add.
   double compliance = 0.0;
   for (const auto& mode : problem.plant.structure.modes) {
@@ -155,14 +157,14 @@ TEST(PointingLimit, SeesTheBendingThatNoEncoderSees) {
   EXPECT_GT(of_static, 1.0);
   EXPECT_LT(of_static, 1.4);
   for (auto& mode : problem.plant.structure.modes) mode.stiffness *= 100.0;
-  EXPECT_LT(encoder_held_rms(problem), 0.02 * held);
+  EXPECT_LT(flexure_rms(problem), 0.02 * held);
 }
 
 TEST(PointingLimit, IsRobustOnEveryMemberOnceRobustified) {
   const std::vector<EnsembleMember> members{{"slow structure", with_structure_frequencies(0.95)},
                                             {"fast structure", with_structure_frequencies(1.05)}};
   const PointingLimit limit = pointing_limit(problem_with_torque_noise(), {}, members,
-                                             {tuned_laws().back()}, {.threads = 2});
+                                             {tuned_controllers().back()}, {.threads = 2});
   EXPECT_LT(limit.unconstrained.stable_members, 2);  // it leans on what it believes
   EXPECT_TRUE(std::isnan(limit.unconstrained.worst_rms));
   ASSERT_TRUE(limit.robustified);
@@ -171,28 +173,31 @@ TEST(PointingLimit, IsRobustOnEveryMemberOnceRobustified) {
   for (const SampledResult& member : design.members) {
     EXPECT_TRUE(member.stable()) << member.plant;
     EXPECT_LE(member.peak.magnitude, 2.0) << member.plant;
-    EXPECT_LE(member.valve_effort, 0.6) << member.plant;
-    EXPECT_LE(member.beam_rms, design.worst_rms);
+    EXPECT_LE(member.control_effort, 0.6) << member.plant;
+    EXPECT_LE(member.boresight_rms, design.worst_rms);
   }
-  EXPECT_GT(design.nominal.beam_rms, limit.margin_limited->design.nominal.beam_rms);
-  EXPECT_LT(design.worst_rms, 3.0 * limit.least_rms);
-  const LawAgainstLimit& law = limit.laws.front();
-  EXPECT_DOUBLE_EQ(*law.to_robustified, law.design.nominal.beam_rms / design.nominal.beam_rms);
-  EXPECT_DOUBLE_EQ(*law.worst_to_robustified, law.design.worst_rms / design.worst_rms);
+  EXPECT_GT(design.nominal.boresight_rms, limit.margin_limited->design.nominal.boresight_rms);
+  EXPECT_LT(design.worst_rms, 3.0 * limit.min_rms);
+  const ControllerAgainstLimit& controller = limit.controllers.front();
+  EXPECT_DOUBLE_EQ(*controller.to_robustified,
+                   controller.design.nominal.boresight_rms / design.nominal.boresight_rms);
+  EXPECT_DOUBLE_EQ(*controller.worst_to_robustified,
+                   controller.design.worst_rms / design.worst_rms);
   EXPECT_EQ(design.members.front().plant, "slow structure");
 }
 
-TEST(PointingLimit, SaysOfALawThatIsUnstableOnlyThat) {
-  std::vector<NamedLaw> laws{tuned_laws().front()};
-  laws.front().law.gains[0] = 20.0;
+TEST(PointingLimit, SaysOfAControllerThatIsUnstableOnlyThat) {
+  std::vector<DescribedController> controllers{tuned_controllers().front()};
+  controllers.front().controller.gains[0] = 20.0;
   const SampledSetting setting(
       "own", reference::antenna(), fit_wind_filter(problem_with_torque_noise()),
       problem_with_torque_noise().noise, 0.02, Eigen::ArrayXd::LinSpaced(50, 0.1, 150.0));
-  const auto judged = setting.judge(
-      control::sampled_loop(setting.problem().plant, laws.front().law, 0.02).controller);
-  EXPECT_GT(judged.spectral_radius, 1.0);
-  EXPECT_TRUE(std::isnan(judged.beam_rms));
-  EXPECT_TRUE(std::isnan(judged.valve_effort));
+  const auto evaluated = setting.evaluate(
+      control::sampled_loop(setting.problem().plant, controllers.front().controller, 0.02)
+          .controller);
+  EXPECT_GT(evaluated.spectral_radius, 1.0);
+  EXPECT_TRUE(std::isnan(evaluated.boresight_rms));
+  EXPECT_TRUE(std::isnan(evaluated.control_effort));
 }
 
 TEST(SampledSetting, TakesTorqueWithoutStatedNoiseForNextToExact) {
@@ -219,9 +224,9 @@ TEST(PointingLimit, RefusesWhatItCannotJudge) {
   problem = problem_with_torque_noise();
   EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {}, {.sample_time = 0.0}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected a sample time above 0, found 0 s")));
-  NamedLaw law = tuned_laws().front();
-  law.law.gains.pop_back();
-  EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {law}); }),
+  DescribedController controller = tuned_controllers().front();
+  controller.controller.gains.pop_back();
+  EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {controller}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected 5 gains")));
   const auto filter = fit_wind_filter(problem);
   const Eigen::ArrayXd some = Eigen::ArrayXd::LinSpaced(30, 0.1, 150.0);

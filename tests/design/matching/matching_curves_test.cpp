@@ -55,31 +55,33 @@ TEST(MatchingCurves, FindsWhatALongSearchAtOneInertiaFinds) {
   for (std::size_t s = 0; s < 2; ++s) {
     const auto& structure = small_task().structures[s];
     const auto alone = tune(problem, structure, {}, options);
-    const auto& law = small_study().curves[s].laws.back();
-    ASSERT_EQ(law.status, TuningStatus::optimal);
-    EXPECT_LT(law.soft_rms, alone.soft_rms * (1.0 + 3.0 * small_study().tolerance));
+    const auto& controller = small_study().curves[s].controllers.back();
+    ASSERT_EQ(controller.status, TuningStatus::optimal);
+    EXPECT_LT(controller.soft_rms, alone.soft_rms * (1.0 + 3.0 * small_study().tolerance));
   }
 }
 
-TEST(MatchingCurves, EveryLawHoldsItsGoalsOnEveryPlant) {
+TEST(MatchingCurves, EveryControllerHoldsItsGoalsOnEveryPlant) {
   for (const auto& curve : small_study().curves) {
-    for (std::size_t i = 0; i < curve.laws.size(); ++i) {
+    for (std::size_t i = 0; i < curve.controllers.size(); ++i) {
       MatchingTask there = small_task();
       const double factor = there.motor_inertia[i] / there.problem.plant.drive.motor_inertia;
       there.problem.plant.drive.motor_inertia *= factor;
       for (auto& member : there.members) member.plant.drive.motor_inertia *= factor;
-      const auto judged = judge(there.problem, there.members, curve.laws[i].law, {}, 1);
-      EXPECT_EQ(judged.within_goals, 6);
-      const double rms = judged.members.front().beam_rms * there.problem.gear_ratio;
-      EXPECT_NEAR(curve.laws[i].soft_rms / rms, 1.0, 1e-5);
+      const auto evaluated =
+          evaluate(there.problem, there.members, curve.controllers[i].controller, {}, 1);
+      EXPECT_EQ(evaluated.within_constraints, 6);
+      const double rms = evaluated.members.front().boresight_rms * there.problem.gear_ratio;
+      EXPECT_NEAR(curve.controllers[i].soft_rms / rms, 1.0, 1e-5);
     }
   }
 }
 
 TEST(MatchingCurves, AStructureIsNeverWorseThanWhatItExtends) {
   for (std::size_t i = 0; i < 4; ++i) {
-    const double part = small_study().curves[0].laws[i].soft_rms;
-    EXPECT_LT(small_study().curves[1].laws[i].soft_rms, part * (1.0 + small_study().tolerance));
+    const double part = small_study().curves[0].controllers[i].soft_rms;
+    EXPECT_LT(small_study().curves[1].controllers[i].soft_rms,
+              part * (1.0 + small_study().tolerance));
   }
 }
 
@@ -90,8 +92,9 @@ TEST(MatchingCurves, OtherSeedsFindTheSame) {
   EXPECT_TRUE(other.settled);
   for (std::size_t s = 0; s < 2; ++s) {
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_NEAR(other.curves[s].laws[i].soft_rms / small_study().curves[s].laws[i].soft_rms, 1.0,
-                  5e-3);
+      EXPECT_NEAR(
+          other.curves[s].controllers[i].soft_rms / small_study().curves[s].controllers[i].soft_rms,
+          1.0, 5e-3);
     }
   }
 }
@@ -104,7 +107,8 @@ TEST(MatchingCurves, ThreadsMakeNoDifference) {
   EXPECT_EQ(other.evaluations, small_study().evaluations);
   for (std::size_t s = 0; s < 2; ++s) {
     for (std::size_t i = 0; i < 4; ++i) {
-      EXPECT_EQ(other.curves[s].laws[i].law.gains, small_study().curves[s].laws[i].law.gains);
+      EXPECT_EQ(other.curves[s].controllers[i].controller.gains,
+                small_study().curves[s].controllers[i].controller.gains);
     }
   }
 }
@@ -124,9 +128,9 @@ TEST(MatchingCurves, AnInterruptLeavesWhatWasWhole) {
   const auto stopped = match_motors(small_task(), options);
   EXPECT_TRUE(stopped.interrupted);
   EXPECT_FALSE(stopped.settled);
-  EXPECT_EQ(stopped.curves[0].laws[0].status, TuningStatus::optimal);
-  EXPECT_FALSE(stopped.curves[1].laws[3].searched);
-  EXPECT_EQ(stopped.curves[1].laws[3].status, TuningStatus::unstable);
+  EXPECT_EQ(stopped.curves[0].controllers[0].status, TuningStatus::optimal);
+  EXPECT_FALSE(stopped.curves[1].controllers[3].searched);
+  EXPECT_EQ(stopped.curves[1].controllers[3].status, TuningStatus::unstable);
 }
 
 TEST(MatchingCurves, ProgressEndsAtAll) {
@@ -169,14 +173,14 @@ TEST(MatchingCurves, SaysWhatItCannotWorkOn) {
 TEST(MatchingSmoothness, TellsKinksFromUnevenness) {
   MatchingCurve curve{LoopStructure::pi(), {}};
   for (int i = 0; i < 8; ++i) {
-    MatchedLaw law;
-    law.status = TuningStatus::optimal;
-    law.law = {LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
-    law.soft_rms = std::exp(1e-3 * i * i * i) * (i > 4 ? 1.1 : 1.0);
-    LimitingGoal goal;
+    MatchedController controller;
+    controller.status = TuningStatus::optimal;
+    controller.controller = {LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
+    controller.soft_rms = std::exp(1e-3 * i * i * i) * (i > 4 ? 1.1 : 1.0);
+    ActiveConstraint goal;
     goal.goal.frequency = i > 4 ? 10.0 : 5.0;
-    law.active_goals = {goal};
-    curve.laws.push_back(law);
+    controller.active_constraints = {goal};
+    curve.controllers.push_back(controller);
   }
   const auto found = smoothness(curve, {0, 1, 2, 3, 4, 5, 6, 7});
   ASSERT_EQ(found.third_differences.size(), 5U);

@@ -12,18 +12,18 @@ namespace {
 
 struct Setting {
   TrackingProblem problem = reference::tracking_problem();
-  control::ControlLaw law = reference::cautious_law();
+  control::Controller controller = reference::cautious_gains();
   control::LoopEvaluator evaluator = make_evaluator(problem);
-  double noise = evaluator.evaluate(law, false).noise_variance;
-  Eigen::ArrayXd transmission = evaluator.wind_transmission(law);
+  double noise = evaluator.evaluate(controller, false).noise_variance;
+  Eigen::ArrayXd transmission = evaluator.wind_transmission(controller);
 
   std::vector<double> speeds(double budget, const NonlinearEffect& effect) const {
     PointingBudget one;
     one.rms = budget;
-    return budget_speeds(problem, law, {one}, effect);
+    return budget_speeds(problem, controller, {one}, effect);
   }
   double rms(double speed) const {
-    return beam_rms_at_speed(problem, evaluator, transmission, noise, speed);
+    return boresight_rms_at_speed(problem, evaluator, transmission, noise, speed);
   }
 };
 

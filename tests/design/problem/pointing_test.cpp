@@ -44,12 +44,12 @@ TEST(HalfPowerBeamwidth, RefusesWhatHasNoBeam) {
 }
 
 TEST(RmsForLoss, GivesTheBudgetsOfATenthOfADecibel) {
-  const double beam = ka_beamwidth();
-  EXPECT_NEAR(rms_for_loss(0.1, beam, LossConvention::mean_loss_two_axes) / mdeg, 0.527, 5e-4);
-  EXPECT_NEAR(rms_for_loss(0.1, beam, LossConvention::loss_at_mean_radial_error) / mdeg, 0.595,
+  const double boresight = ka_beamwidth();
+  EXPECT_NEAR(rms_for_loss(0.1, boresight, LossConvention::mean_loss_two_axes) / mdeg, 0.527, 5e-4);
+  EXPECT_NEAR(rms_for_loss(0.1, boresight, LossConvention::loss_at_mean_radial_error) / mdeg, 0.595,
               5e-4);
-  EXPECT_NEAR(rms_for_loss(0.1, beam, LossConvention::mean_loss_one_axis) /
-                  rms_for_loss(0.1, beam, LossConvention::mean_loss_two_axes),
+  EXPECT_NEAR(rms_for_loss(0.1, boresight, LossConvention::mean_loss_one_axis) /
+                  rms_for_loss(0.1, boresight, LossConvention::mean_loss_two_axes),
               std::numbers::sqrt2, 1e-14);
 }
 
@@ -68,17 +68,17 @@ TEST(PointingLoss, IsTheMeanOverGaussianErrors) {
   double mean_square = 0.0, mean_radius = 0.0;
   constexpr double step = 1e-3;
   for (double r = 0.5 * step; r < 12.0; r += step) {
-    const double share = r * std::exp(-0.5 * r * r) * step;
-    mean_square += share * r * r;
-    mean_radius += share * r;
+    const double fraction = r * std::exp(-0.5 * r * r) * step;
+    mean_square += fraction * r * r;
+    mean_radius += fraction * r;
   }
-  const double beam = 8.0, rms = 0.5;
-  EXPECT_NEAR(pointing_loss_db(rms, beam, LossConvention::mean_loss_two_axes),
-              12.0 * mean_square * std::pow(rms / beam, 2), 1e-6);
-  EXPECT_NEAR(pointing_loss_db(rms, beam, LossConvention::loss_at_mean_radial_error),
-              12.0 * std::pow(mean_radius * rms / beam, 2), 1e-6);
-  EXPECT_NEAR(pointing_loss_db(rms, beam, LossConvention::mean_loss_one_axis),
-              12.0 * std::pow(rms / beam, 2), 1e-15);
+  const double boresight = 8.0, rms = 0.5;
+  EXPECT_NEAR(pointing_loss_db(rms, boresight, LossConvention::mean_loss_two_axes),
+              12.0 * mean_square * std::pow(rms / boresight, 2), 1e-6);
+  EXPECT_NEAR(pointing_loss_db(rms, boresight, LossConvention::loss_at_mean_radial_error),
+              12.0 * std::pow(mean_radius * rms / boresight, 2), 1e-6);
+  EXPECT_NEAR(pointing_loss_db(rms, boresight, LossConvention::mean_loss_one_axis),
+              12.0 * std::pow(rms / boresight, 2), 1e-15);
 }
 
 TEST(PointingLoss, AtHalfTheBeamwidthIsThreeDecibels) {

@@ -24,8 +24,9 @@ TEST(StaticBending, IsTheLimitOfTheStructuresResponse) {
       plant::structure_response(own.plant.structure, Eigen::ArrayXd::Constant(1, 1e-4));
   const double torque =
       plant::mean_wind_torque(own.wind.site, own.wind.mean_speed) / own.gear_ratio;
-  EXPECT_NEAR(static_bending(own) / (response.beam_per_wind.real()(0) * torque / own.gear_ratio),
-              1.0, 1e-6);
+  EXPECT_NEAR(
+      static_bending(own) / (response.boresight_per_wind.real()(0) * torque / own.gear_ratio), 1.0,
+      1e-6);
 }
 
 TEST(StaticBending, GrowsWithTheSquareOfTheSpeed) {

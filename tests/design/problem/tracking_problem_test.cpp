@@ -39,17 +39,17 @@ TEST(MakeEvaluator, SpansTheBandOfTheProblem) {
 class RmsAtSpeed {
  public:
   RmsAtSpeed() {
-    const auto evaluation = evaluator_.evaluate(law_, false);
+    const auto evaluation = evaluator_.evaluate(controller_, false);
     stable_ = evaluation.stable();
-    design_rms_ = std::sqrt(evaluation.beam_variance()) / problem_.gear_ratio;
+    design_rms_ = std::sqrt(evaluation.boresight_variance()) / problem_.gear_ratio;
     noise_ = evaluation.noise_variance;
-    transmission_ = evaluator_.wind_transmission(law_);
+    transmission_ = evaluator_.wind_transmission(controller_);
   }
   double at(double speed) const {
-    return beam_rms_at_speed(problem_, evaluator_, transmission_, noise_, speed);
+    return boresight_rms_at_speed(problem_, evaluator_, transmission_, noise_, speed);
   }
   double limit(double budget) const {
-    return wind_speed_limit(problem_, evaluator_, law_, noise_, budget);
+    return wind_speed_limit(problem_, evaluator_, controller_, noise_, budget);
   }
   double floor() const { return std::sqrt(noise_) / problem_.gear_ratio; }
   double design_rms() const { return design_rms_; }
@@ -58,19 +58,19 @@ class RmsAtSpeed {
  private:
   TrackingProblem problem_ = reference::tracking_problem();
   control::LoopEvaluator evaluator_ = make_evaluator(problem_);
-  control::ControlLaw law_ = reference::cautious_law();
+  control::Controller controller_ = reference::cautious_gains();
   Eigen::ArrayXd transmission_;
   double noise_ = 0.0, design_rms_ = 0.0;
   bool stable_ = false;
 };
 
-TEST(BeamRmsAtSpeed, IsTheEvaluationsAtTheDesignSpeed) {
+TEST(BoresightRmsAtSpeed, IsTheEvaluationsAtTheDesignSpeed) {
   const RmsAtSpeed rms;
   ASSERT_TRUE(rms.stable());
   EXPECT_LT(relative_error(rms.at(10.0), rms.design_rms()), 1e-12);
 }
 
-TEST(BeamRmsAtSpeed, RisesWithSpeedFromTheNoiseFloor) {
+TEST(BoresightRmsAtSpeed, RisesWithSpeedFromTheNoiseFloor) {
   const RmsAtSpeed rms;
   double previous = rms.floor();
   for (double speed = 0.2; speed < 60.0; speed *= 1.2) {
@@ -82,8 +82,8 @@ TEST(BeamRmsAtSpeed, RisesWithSpeedFromTheNoiseFloor) {
 
 TEST(WindSpeedLimit, IsWhereTheRmsMeetsTheBudget) {
   const RmsAtSpeed rms;
-  for (const double share : {0.3, 1.0, 5.0}) {
-    const double budget = rms.floor() + share * (rms.design_rms() - rms.floor());
+  for (const double fraction : {0.3, 1.0, 5.0}) {
+    const double budget = rms.floor() + fraction * (rms.design_rms() - rms.floor());
     const double limit = rms.limit(budget);
     EXPECT_GT(limit, 0.1);
     EXPECT_LT(limit, 60.0);
@@ -116,10 +116,10 @@ TEST(FitWindFilter, KeepsTheClosedLoopRmsOfEveryWindModel) {
       problem.wind.model = model;
       problem.wind.mean_speed = speed;
       auto evaluator = make_evaluator(problem);
-      const auto law = reference::cautious_law();
-      const double exact = std::sqrt(evaluator.evaluate(law, false).wind_variance);
+      const auto controller = reference::cautious_gains();
+      const double exact = std::sqrt(evaluator.evaluate(controller, false).wind_variance);
       const auto rms =
-          control::lyapunov_rms(problem.plant, law, problem.delay,
+          control::lyapunov_rms(problem.plant, controller, problem.delay,
                                 fit_wind_filter(problem.wind, problem.gear_ratio), problem.noise);
       EXPECT_NEAR(rms.wind / exact, 1.0, 5e-3) << to_string(model) << " " << speed << " m/s";
     }

@@ -51,74 +51,74 @@ TEST(WindClimate, ScalesWithTheSpeed) {
 }
 
 // Of all winds, by the law itself.
-double share_above(const WeibullClimate& law, double speed) {
-  return std::exp(-std::pow(speed / law.scale, law.shape));
+double fraction_above(const WeibullClimate& controller, double speed) {
+  return std::exp(-std::pow(speed / controller.scale, controller.shape));
 }
 
-double mean_of(const WeibullClimate& law) {
-  return law.scale * std::exp(std::lgamma(1.0 + 1.0 / law.shape));
+double mean_of(const WeibullClimate& controller) {
+  return controller.scale * std::exp(std::lgamma(1.0 + 1.0 / controller.shape));
 }
 
-TEST(WindClimate, FindsTheLawOfAMeanAndOneExceedance) {
+TEST(WindClimate, FindsTheDistributionOfAMeanAndOneExceedance) {
   // 9 mile/h on the average, 2 % of the time more than 30 mile/h.
   const double mile_per_hour = 0.44704;
   const auto found = weibull_shapes(30.0 / 9.0, 0.02);
   ASSERT_EQ(found.shapes.size(), 1U);
   EXPECT_NEAR(found.shapes[0], 1.19173678, 1e-8);
-  const auto law = weibull_climate(9.0 * mile_per_hour, found.shapes[0], 60.0);
-  EXPECT_NEAR(law.scale, 9.55059536 * mile_per_hour, 1e-8);
-  EXPECT_NEAR(mean_of(law), 9.0 * mile_per_hour, 1e-9);
-  EXPECT_NEAR(share_above(law, 30.0 * mile_per_hour), 0.02, 1e-12);
-  EXPECT_NEAR(expectation(climate_speeds(law), 1.0), 9.0 * mile_per_hour, 1e-4);
+  const auto controller = weibull_climate(9.0 * mile_per_hour, found.shapes[0], 60.0);
+  EXPECT_NEAR(controller.scale, 9.55059536 * mile_per_hour, 1e-8);
+  EXPECT_NEAR(mean_of(controller), 9.0 * mile_per_hour, 1e-9);
+  EXPECT_NEAR(fraction_above(controller, 30.0 * mile_per_hour), 0.02, 1e-12);
+  EXPECT_NEAR(expectation(climate_speeds(controller), 1.0), 9.0 * mile_per_hour, 1e-4);
   for (const double shape : {0.9, 1.3, 2.0, 3.5, 8.0}) {
     for (const double ratio : {0.2, 0.7, 1.0, 2.0, 2.5}) {
-      const double share = share_above(weibull_climate(1.0, shape, 10.0), ratio);
-      if (share < 1e-200) continue;
-      const auto again = weibull_shapes(ratio, share);
+      const double fraction = fraction_above(weibull_climate(1.0, shape, 10.0), ratio);
+      if (fraction < 1e-200) continue;
+      const auto again = weibull_shapes(ratio, fraction);
       ASSERT_EQ(again.shapes.size(), 1U) << shape << ' ' << ratio;
       EXPECT_NEAR(again.shapes[0], shape, 1e-6) << ratio;
-      EXPECT_LE(again.least_share, share);
-      EXPECT_GE(again.most_share, share);
+      EXPECT_LE(again.min_fraction, fraction);
+      EXPECT_GE(again.max_fraction, fraction);
     }
   }
 }
 
-TEST(WindClimate, FindsBothLawsOrNone) {
+TEST(WindClimate, FindsBothControllersOrNone) {
   // A little above the mean: 1.2 times it most winds exceed at a shape of 1.70.
   const auto both = weibull_shapes(1.2, 0.31);
   ASSERT_EQ(both.shapes.size(), 2U);
   EXPECT_LT(both.shapes[0], 1.7);
   EXPECT_GT(both.shapes[1], 1.7);
   for (const double shape : both.shapes) {
-    EXPECT_NEAR(share_above(weibull_climate(1.0, shape, 10.0), 1.2), 0.31, 1e-12);
+    EXPECT_NEAR(fraction_above(weibull_climate(1.0, shape, 10.0), 1.2), 0.31, 1e-12);
   }
-  EXPECT_NEAR(both.most_share, 0.32525957, 1e-8);
-  EXPECT_EQ(weibull_shapes(1.2, both.most_share * (1.0 - 1e-12)).shapes.size(), 1U);
+  EXPECT_NEAR(both.max_fraction, 0.32525957, 1e-8);
+  EXPECT_EQ(weibull_shapes(1.2, both.max_fraction * (1.0 - 1e-12)).shapes.size(), 1U);
   EXPECT_THAT(weibull_shapes(1.2, 0.33).shapes, testing::IsEmpty());
   const auto none = weibull_shapes(30.0 / 9.0, 0.08);
   EXPECT_THAT(none.shapes, testing::IsEmpty());
-  EXPECT_NEAR(none.most_share, 0.05528453, 1e-8);
-  EXPECT_EQ(none.least_share, 0.0);
+  EXPECT_NEAR(none.max_fraction, 0.05528453, 1e-8);
+  EXPECT_EQ(none.min_fraction, 0.0);
   EXPECT_THAT(weibull_shapes(2.0, 1.0).shapes, testing::IsEmpty());
-  for (const auto& [ratio, share] : {std::pair{0.0, 0.1}, std::pair{2.0, 0.0}, std::pair{2.0, 1.1},
-                                     std::pair{std::nan(""), 0.1}}) {
-    EXPECT_THROW(weibull_shapes(ratio, share), InvalidInput);
+  for (const auto& [ratio, fraction] : {std::pair{0.0, 0.1}, std::pair{2.0, 0.0},
+                                        std::pair{2.0, 1.1}, std::pair{std::nan(""), 0.1}}) {
+    EXPECT_THROW(weibull_shapes(ratio, fraction), InvalidInput);
   }
 }
 
 TEST(WindClimate, SharesOutTheTime) {
-  const WeibullClimate law{6.0, 2.0, 9.0};
+  const WeibullClimate controller{6.0, 2.0, 9.0};
   const auto below = [](double v) { return 1.0 - std::exp(-v * v / 36.0); };
-  EXPECT_NEAR(share_of_time({{law}}, 5.0), below(5.0) / below(9.0), 1e-12);
-  EXPECT_EQ(share_of_time({{law}}, 9.0), 1.0);
-  EXPECT_EQ(share_of_time({{law}}, INFINITY), 1.0);
-  EXPECT_EQ(share_of_time({{law}}, 0.0), 0.0);
-  const std::vector<ClimatePart> mixture{{law, 3.0}, {12.0, 1.0}};
-  EXPECT_NEAR(share_of_time(mixture, 5.0), 0.75 * below(5.0) / below(9.0), 1e-12);
-  EXPECT_DOUBLE_EQ(share_of_time(mixture, 11.9), 0.75);
-  EXPECT_EQ(share_of_time(mixture, 12.0), 1.0);
+  EXPECT_NEAR(fraction_of_time({{controller}}, 5.0), below(5.0) / below(9.0), 1e-12);
+  EXPECT_EQ(fraction_of_time({{controller}}, 9.0), 1.0);
+  EXPECT_EQ(fraction_of_time({{controller}}, INFINITY), 1.0);
+  EXPECT_EQ(fraction_of_time({{controller}}, 0.0), 0.0);
+  const std::vector<ClimatePart> mixture{{controller, 3.0}, {12.0, 1.0}};
+  EXPECT_NEAR(fraction_of_time(mixture, 5.0), 0.75 * below(5.0) / below(9.0), 1e-12);
+  EXPECT_DOUBLE_EQ(fraction_of_time(mixture, 11.9), 0.75);
+  EXPECT_EQ(fraction_of_time(mixture, 12.0), 1.0);
   EXPECT_EQ(highest_speed(mixture), 12.0);
-  EXPECT_THROW(share_of_time({}, 5.0), InvalidInput);
+  EXPECT_THROW(fraction_of_time({}, 5.0), InvalidInput);
 }
 
 TEST(WindClimate, TakesATableOfSpeedsAndShares) {

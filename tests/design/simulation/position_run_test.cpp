@@ -14,7 +14,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 // The tuned PI law of the reference antenna.
-control::ControlLaw steady_law(double position_gain = 10.258) {
+control::Controller steady_controller(double position_gain = 10.258) {
   return {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, position_gain, 0.23531}};
 }
 
@@ -31,7 +31,7 @@ TEST(TrackingRun, TakesTheTorqueOfAMeasuredWind) {
   Mission mission = reference::demo_mission();
   mission.wind.model = plant::WindModel::uniform;
   mission.wind_record = sine_wind(66.0);
-  const auto run = run_tracking(mission, steady_law(), 1, {});
+  const auto run = run_tracking(mission, steady_controller(), 1, {});
   EXPECT_NEAR(run.duration, 66.0, 0.01);
   EXPECT_EQ(run.duration, run.planned_duration);
   ASSERT_TRUE(run.tracking && run.tracking->measured);
@@ -67,9 +67,9 @@ TEST(TrackingRun, TakesTheCoefficientFromTheTableWhereTheDishPoints) {
   mission.torque_table.emplace(Eigen::Vector2d(-two_pi / 2.0, two_pi / 2.0),
                                Eigen::Vector2d(0.0, two_pi / 4.0),
                                Eigen::Matrix2d::Constant(2.0 * coefficient));
-  const auto without = run_tracking(mission, steady_law(), 1, {});
+  const auto without = run_tracking(mission, steady_controller(), 1, {});
   mission.pointing = plant::DishDirection{0.5, 0.5};
-  const auto with = run_tracking(mission, steady_law(), 1, {});
+  const auto with = run_tracking(mission, steady_controller(), 1, {});
   EXPECT_NEAR(with.channels.back().values[0] / without.channels.back().values[0], 2.0, 1e-9);
 }
 
@@ -77,26 +77,27 @@ TEST(TrackingRun, TakesTheCoefficientFromTheTableWhereTheDishPoints) {
 TEST(TrackingRun, BoresightErrorIsScaledByTheBoresightFactor) {
   Mission mission = reference::demo_mission();
   mission.wind_record = sine_wind(66.0);
-  const auto whole = run_tracking(mission, steady_law(), 1, {});
+  const auto whole = run_tracking(mission, steady_controller(), 1, {});
   mission.antenna.boresight_factor = 0.5;
-  const auto half = run_tracking(mission, steady_law(), 1, {});
+  const auto half = run_tracking(mission, steady_controller(), 1, {});
   EXPECT_EQ(half.channels[2].values, whole.channels[2].values);
   EXPECT_NEAR((half.channels[3].values - 0.5 * whole.channels[3].values).cwiseAbs().maxCoeff() /
                   whole.channels[3].values.cwiseAbs().maxCoeff(),
               0.0, 1e-6);
-  ASSERT_TRUE(whole.predicted_rms && half.predicted_rms && whole.beam_rms && half.beam_rms);
+  ASSERT_TRUE(whole.predicted_rms && half.predicted_rms && whole.boresight_rms &&
+              half.boresight_rms);
   EXPECT_NEAR(*half.predicted_rms / *whole.predicted_rms, 0.5, 1e-9);
-  EXPECT_NEAR(*half.beam_rms / *whole.beam_rms, 0.5, 1e-6);
+  EXPECT_NEAR(*half.boresight_rms / *whole.boresight_rms, 0.5, 1e-6);
   EXPECT_EQ(half.encoder_rms, whole.encoder_rms);
 }
 
 TEST(TrackingRun, EndsWhereItIsTold) {
-  const auto run = run_tracking(reference::demo_mission(), steady_law(), 1,
+  const auto run = run_tracking(reference::demo_mission(), steady_controller(), 1,
                                 [](double done) { return done < 0.02; });
   EXPECT_FALSE(run.complete);
   EXPECT_NEAR(run.planned_duration, 660.0, 0.01);
   EXPECT_LT(run.duration, 60.0);
-  EXPECT_FALSE(run.beam_rms);  // not settled
+  EXPECT_FALSE(run.boresight_rms);  // not settled
   ASSERT_TRUE(run.tracking);
   EXPECT_FALSE(run.tracking->measured);
   EXPECT_EQ(run.tracking->mean_wind_speed, 10.0);
@@ -104,7 +105,7 @@ TEST(TrackingRun, EndsWhereItIsTold) {
 
 TEST(SlewRun, GoesTheWholeWayOnTheControllerItIsGiven) {
   const Mission mission = reference::demo_mission();
-  const auto run = run_slew(mission, steady_law(), 1, {});
+  const auto run = run_slew(mission, steady_controller(), 1, {});
   ASSERT_TRUE(run.slew);
   EXPECT_TRUE(run.complete);
   const SlewCourse& course = *run.slew;
@@ -117,7 +118,7 @@ TEST(SlewRun, GoesTheWholeWayOnTheControllerItIsGiven) {
   ASSERT_TRUE(run.overshoot);
   EXPECT_FALSE(run.predicted_rms);
   // Other gains move it otherwise.
-  const auto slower = run_slew(mission, steady_law(5.0), 1, {});
+  const auto slower = run_slew(mission, steady_controller(5.0), 1, {});
   ASSERT_TRUE(slower.complete);
   EXPECT_NE(slower.channels[2].values, run.channels[2].values);
   EXPECT_EQ(slower.channels[1].values, reference);
@@ -127,14 +128,14 @@ TEST(SlewRun, RefusesAnAntennaThatTheSupplyCannotMove) {
   Mission mission = reference::demo_mission();
   mission.antenna.friction_curve.coulomb_torque = 400.0;
   mission.antenna.friction_curve.breakaway_torque = 400.0;
-  EXPECT_THROW(run_slew(mission, steady_law(), 1, {}), InfeasibleRequirement);
+  EXPECT_THROW(run_slew(mission, steady_controller(), 1, {}), InfeasibleRequirement);
 }
 
 TEST(PositionRun, NeedsWhatTheLinearPlantLeavesOut) {
   Mission mission = reference::demo_mission();
   mission.antenna.nonlinear.reset();
-  EXPECT_THROW(run_tracking(mission, steady_law(), 1, {}), InvalidInput);
-  EXPECT_THROW(run_slew(mission, steady_law(), 1, {}), InvalidInput);
+  EXPECT_THROW(run_tracking(mission, steady_controller(), 1, {}), InvalidInput);
+  EXPECT_THROW(run_slew(mission, steady_controller(), 1, {}), InvalidInput);
 }
 
 }  // namespace

@@ -91,9 +91,9 @@ TEST(TestRuns, KeepWhatIsUnderWayWhenInterrupted) {
   Kept kept;
   auto calls = kept.calls();
   bool interrupted = false;
-  std::vector<double> shares;
+  std::vector<double> fractions;
   calls.interrupted = [&] { return interrupted; };
-  calls.progress = [&](double share) { shares.push_back(share); };
+  calls.progress = [&](double fraction) { fractions.push_back(fraction); };
   const TestRun half = [&](const RunProgress& progress) {
     EXPECT_TRUE(progress(0.25));
     interrupted = true;
@@ -105,7 +105,7 @@ TEST(TestRuns, KeepWhatIsUnderWayWhenInterrupted) {
   EXPECT_EQ(outcome.kept, 1U);
   EXPECT_THAT(outcome.begun, ElementsAre(true, false));
   EXPECT_FALSE(outcome.failure);
-  EXPECT_THAT(shares, ElementsAre(0.125, 0.25));  // of both runs
+  EXPECT_THAT(fractions, ElementsAre(0.125, 0.25));  // of both runs
 }
 
 }  // namespace

@@ -6,12 +6,12 @@
 namespace boresight::design {
 namespace {
 
-TunedLaw tuned_at(double wind_speed) {
-  TunedLaw row;
+TunedController tuned_at(double wind_speed) {
+  TunedController row;
   row.structure = "PI";
   row.wind_speed = wind_speed;
   row.design.tuning.status = TuningStatus::optimal;
-  row.design.tuning.law = reference::cautious_law();
+  row.design.tuning.controller = reference::cautious_gains();
   return row;
 }
 
@@ -22,13 +22,13 @@ TEST(AdjustableLoop, IsInTheWindOfItsControllerWithoutTheClimate) {
   const auto loop = adjustable_loop(study, tuned_at(14.0));
   ASSERT_TRUE(loop.has_value());
   EXPECT_EQ(loop->structure, "PI");
-  EXPECT_EQ(loop->law.gains, reference::cautious_law().gains);
+  EXPECT_EQ(loop->controller.gains, reference::cautious_gains().gains);
   EXPECT_EQ(loop->problem.wind.mean_speed, 14.0);
   EXPECT_TRUE(loop->problem.climate.empty());
 }
 
 TEST(AdjustableLoop, IsNoneWithoutAStableController) {
-  TunedLaw row = tuned_at(10.0);
+  TunedController row = tuned_at(10.0);
   row.design.tuning.status = TuningStatus::unstable;
   EXPECT_FALSE(adjustable_loop(TuningStudy{}, row).has_value());
   RecommendedDesign recommended;

@@ -6,10 +6,10 @@
 namespace boresight::design {
 namespace {
 
-const control::ControlLaw& slow_pi() {
-  static const control::ControlLaw law{control::LoopStructure::pi_with_lag(),
-                                       {0.1, 0.42, 2.6, 3.0, 0.2}};
-  return law;
+const control::Controller& slow_pi() {
+  static const control::Controller controller{control::LoopStructure::pi_with_lag(),
+                                              {0.1, 0.42, 2.6, 3.0, 0.2}};
+  return controller;
 }
 
 TEST(StudyRejection, ScoresWhatTheAntennaRunsOnNow) {
@@ -35,9 +35,9 @@ TEST(StudyRejection, ScoresWhatTheAntennaRunsOnNow) {
 TEST(StudyRejection, SaysWhyNothingNonlinearRan) {
   const Mission mission = reference::demo_mission();
   BenchmarkedController controller = controller_of(slow_pi(), "slow PI", 0.0);
-  controller.law.reset();
+  controller.controller.reset();
   EXPECT_EQ(study_rejection(mission, {}, controller, {}).no_nonlinear, NoTimeDomain::state_space);
-  control::ControlLaw wild = slow_pi();
+  control::Controller wild = slow_pi();
   wild.gains[0] = 50.0;
   const auto unstable = study_rejection(mission, {}, controller_of(wild, "wild", 0.0), {});
   EXPECT_FALSE(unstable.score.stable);

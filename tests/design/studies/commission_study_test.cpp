@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "design/studies/held_law.hpp"
+#include "design/studies/fixed_controller.hpp"
 #include <boresight/design/studies/commission_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
@@ -15,7 +15,7 @@ namespace {
 
 Mission mission_of_test() {
   Mission mission = reference::uncertain_mission();
-  mission.uncertainty.draws = 2;
+  mission.uncertainty.random_samples = 2;
   return mission;
 }
 
@@ -23,7 +23,8 @@ CommissionStudy study_of(const Mission& mission, unsigned threads) {
   CommissioningOptions options;
   options.threads = threads;
   return study_commission(mission, {EnsembleSource::ranges, plant_members(mission, 1)},
-                          reference::held_law("PI", 1.0).design.tuning.law, options, 1);
+                          reference::fixed_controller("PI", 1.0).design.tuning.controller, options,
+                          1);
 }
 
 TEST(StudyCommission, StepsLeaveEveryPlantItsValveAndSupply) {
@@ -57,26 +58,28 @@ TEST(StudyCommission, MovesAtATwentiethOfTheSlewRate) {
 
 TEST(StudyCommission, BeginsWithThePresentControllerWhateverTheThreads) {
   Mission mission = mission_of_test();
-  auto present = reference::held_law("PI", 1.0).design.tuning.law;
+  auto present = reference::fixed_controller("PI", 1.0).design.tuning.controller;
   present.gains[0] *= 0.5;
   mission.present_controllers = {{"PI", present}};
   const CommissionStudy one = study_of(mission, 1), two = study_of(mission, 2);
   EXPECT_EQ(one.plan.stages.front().kind, StageKind::as_found);
-  EXPECT_EQ(one.plan.stages.front().law.law.gains, present.gains);
+  EXPECT_EQ(one.plan.stages.front().controller.controller.gains, present.gains);
   ASSERT_EQ(one.steps.size(), two.steps.size());
   for (std::size_t i = 0; i < one.steps.size(); ++i) EXPECT_EQ(one.steps[i], two.steps[i]);
   EXPECT_EQ(one.limit_cycle.has_value(), two.limit_cycle.has_value());
 }
 
 TEST(ActingGains, AreThoseOfLoopsThatAreClosed) {
-  StageLaw open{reference::held_law("PI", 1.0).design.tuning.law, true, false};
-  StageLaw closed = open;
+  StageController open{reference::fixed_controller("PI", 1.0).design.tuning.controller, true,
+                       false};
+  StageController closed = open;
   closed.position_open = false;
-  const auto symbols = [](const StageLaw& stage, const StageLaw* before, bool changed_only) {
+  const auto symbols = [](const StageController& stage, const StageController* before,
+                          bool changed_only) {
     std::vector<std::string> found;
     for (const auto& gain : acting_gains(stage, before)) {
       if (!changed_only || gain.changed) {
-        found.push_back(stage.law.structure.gains().at(gain.place).symbol);
+        found.push_back(stage.controller.structure.gains().at(gain.place).symbol);
       }
     }
     return found;
@@ -87,7 +90,7 @@ TEST(ActingGains, AreThoseOfLoopsThatAreClosed) {
   // The first stage changes nothing; the loop that is closed brings its gains.
   EXPECT_TRUE(symbols(open, nullptr, true).empty());
   EXPECT_THAT(symbols(closed, &open, true), ElementsAre("kp", "wip"));
-  open.law.gains[1] *= 2.0;
+  open.controller.gains[1] *= 2.0;
   EXPECT_THAT(symbols(closed, &open, true), ElementsAre("wi", "kp", "wip"));
   EXPECT_TRUE(symbols(closed, &closed, true).empty());
 }
@@ -96,22 +99,22 @@ TEST(ActingGains, AreThoseOfLoopsThatAreClosed) {
 TEST(Commissionable, IsARobustControllerThatMeetsEveryConstraint) {
   ControllerStudy study;
   EXPECT_EQ(commissionable(study), nullptr);
-  TunedLaw row;
+  TunedController row;
   row.structure = "PI";
   row.wind_speed = 10.0;
   row.tuned_for = TunedFor::robust;
-  row.goals_met = true;
-  row.design = reference::held_law("PI", 1.0).design;
-  row.design.beam_rms = row.beam_rms = millidegree;
+  row.constraints_met = true;
+  row.design = reference::fixed_controller("PI", 1.0).design;
+  row.design.boresight_rms = row.boresight_rms = millidegree;
   row.ensemble.emplace();
   study.tuned.wind_speeds = {10.0};
-  study.tuned.laws = {row};
+  study.tuned.controllers = {row};
   ASSERT_NE(commissionable(study), nullptr);
   EXPECT_EQ(commissionable(study)->structure, "PI");
-  study.tuned.laws[0].tuned_for = TunedFor::nominal;
+  study.tuned.controllers[0].tuned_for = TunedFor::nominal;
   EXPECT_EQ(commissionable(study), nullptr);
-  study.tuned.laws[0].tuned_for = TunedFor::robust;
-  study.tuned.laws[0].goals_met = false;
+  study.tuned.controllers[0].tuned_for = TunedFor::robust;
+  study.tuned.controllers[0].constraints_met = false;
   EXPECT_EQ(commissionable(study), nullptr);
 }
 

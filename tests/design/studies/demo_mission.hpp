@@ -12,7 +12,7 @@ inline design::Mission demo_mission() {
   mission.wind = {wind_site(), plant::WindModel::coherence, 10.0};
   mission.structures = {{"PI-0", control::LoopStructure::named("PI-0")},
                         {"PI", control::LoopStructure::named("PI")}};
-  mission.most_disks = 24.0;
+  mission.max_disks = 24.0;
   return mission;
 }
 

@@ -15,18 +15,18 @@ Design design_of(double wind, double noise) {
   Design design;
   design.wind_rms = wind;
   design.noise_rms = noise;
-  design.beam_rms = std::hypot(wind, noise);
+  design.boresight_rms = std::hypot(wind, noise);
   return design;
 }
 
 TEST(ErrorBudget, SumsToTheSimulatedRmsAndTheLimitCycleInQuadrature) {
   const auto problem = reference::tracking_problem();
   TimeDomainStudy in_time;
-  in_time.result.wind.beam_rms = 13.0;
-  HuntingResult rest;
+  in_time.result.wind.boresight_rms = 13.0;
+  LimitCycleResult rest;
   rest.limit_cycle = true;
-  rest.beam_amplitude = 2.0;
-  in_time.result.hunting = {rest};
+  rest.boresight_amplitude = 2.0;
+  in_time.result.limit_cycles = {rest};
   const auto budget = error_budget(problem, design_of(3.0, 4.0), &in_time);
   EXPECT_DOUBLE_EQ(budget.wind, 3.0);
   EXPECT_DOUBLE_EQ(budget.noise, 4.0);
@@ -38,7 +38,7 @@ TEST(ErrorBudget, SumsToTheSimulatedRmsAndTheLimitCycleInQuadrature) {
 
 TEST(ErrorBudget, TakesTheExpectedRmsBeforeThatOfOneRecord) {
   TimeDomainStudy in_time;
-  in_time.result.wind.beam_rms = 13.0;
+  in_time.result.wind.boresight_rms = 13.0;
   in_time.rms.emplace();
   in_time.rms->rms.value = std::sqrt(26.0);
   const auto budget = error_budget(reference::tracking_problem(), design_of(3.0, 4.0), &in_time);
@@ -49,9 +49,9 @@ TEST(ErrorBudget, TakesTheExpectedRmsBeforeThatOfOneRecord) {
 TEST(ErrorBudget, HasNoNonlinearPartWithoutASimulationAboveTheLinearRms) {
   const auto problem = reference::tracking_problem();
   TimeDomainStudy in_time;
-  in_time.result.wind.beam_rms = 4.9;
+  in_time.result.wind.boresight_rms = 4.9;
   EXPECT_EQ(error_budget(problem, design_of(3.0, 4.0), &in_time).nonlinearities, 0.0);
-  in_time.result.wind.beam_rms = std::numeric_limits<double>::quiet_NaN();
+  in_time.result.wind.boresight_rms = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(error_budget(problem, design_of(3.0, 4.0), &in_time).total, 5.0);
   const auto linear = error_budget(problem, design_of(3.0, 4.0), nullptr);
   EXPECT_EQ(linear.total, 5.0);

@@ -17,27 +17,29 @@ using testing::ElementsAre;
 TuningResult searched(const std::string& structure, const std::vector<std::string>& at_bound) {
   TuningResult tuning;
   tuning.status = TuningStatus::optimal;
-  tuning.law.structure = control::LoopStructure::named(structure);
-  for (const auto& gain : tuning.law.structure.gains()) tuning.law.gains.push_back(gain.upper);
+  tuning.controller.structure = control::LoopStructure::named(structure);
+  for (const auto& gain : tuning.controller.structure.gains())
+    tuning.controller.gains.push_back(gain.upper);
   tuning.gains_at_bound = at_bound;
   return tuning;
 }
 
-TEST(ReachedBounds, NameABoundOnceWithItsLaws) {
+TEST(ReachedBounds, NameABoundOnceWithItsControllers) {
   const auto pi = searched("PI+C", {"compliance"}), feedback = searched("DPF+C", {"compliance"});
   auto lower = searched("PI+C", {"compliance"});
-  const auto& gains = lower.law.structure.gains();
+  const auto& gains = lower.controller.structure.gains();
   const auto compliance = std::ranges::find(gains, "compliance", &control::GainDescription::name);
-  lower.law.gains.at(static_cast<std::size_t>(compliance - gains.begin())) = compliance->lower;
+  lower.controller.gains.at(static_cast<std::size_t>(compliance - gains.begin())) =
+      compliance->lower;
   auto unstable = pi;
   unstable.status = TuningStatus::unstable;
   const auto bounds =
       reached_bounds({{"one", &pi}, {"two", &feedback}, {"three", &lower}, {"four", &unstable}});
   ASSERT_EQ(bounds.size(), 2U);
-  EXPECT_THAT(bounds[0].laws, ElementsAre("one", "two"));
+  EXPECT_THAT(bounds[0].controllers, ElementsAre("one", "two"));
   EXPECT_TRUE(bounds[0].upper);
   EXPECT_EQ(bounds[0].value(), bounds[0].gain.upper);
-  EXPECT_THAT(bounds[1].laws, ElementsAre("three"));
+  EXPECT_THAT(bounds[1].controllers, ElementsAre("three"));
   EXPECT_EQ(bounds[1].value(), bounds[1].gain.lower);
   EXPECT_FALSE(bounds[0].idle || bounds[1].idle);
   // Controllers of another sample time have bounds of their own.
@@ -82,7 +84,7 @@ TEST(ReachedBounds, LetALeadGoButNotTheLagBeforeIt) {
 // At its lower bound a lag does much; an integral at its upper one acts below it.
 TEST(ReachedBounds, HaveNoIdleBlockWhereItActsBelow) {
   auto slow = searched("PI", {"rate lag corner", "rate integral corner"});
-  slow.law.gains[2] = slow.law.structure.gains()[2].lower;
+  slow.controller.gains[2] = slow.controller.structure.gains()[2].lower;
   EXPECT_FALSE(ends_beyond_sampling(slow, 0.2));
 }
 

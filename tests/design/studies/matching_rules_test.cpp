@@ -15,8 +15,8 @@ MatchingStudy two_points(double first_rms, double last_rms) {
   study.points = {{.disks = 0.0, .motor_to_load_ratio = 0.01}, {.disks = 1000.0}};
   MatchSeries series;
   series.values.resize(2);
-  series.values[0].beam_rms = first_rms;
-  series.values[1].beam_rms = last_rms;
+  series.values[0].boresight_rms = first_rms;
+  series.values[1].boresight_rms = last_rms;
   for (auto& value : series.values) value.found = true;
   series.best = first_rms < last_rms ? 0U : 1U;
   study.series.push_back(series);
@@ -25,7 +25,7 @@ MatchingStudy two_points(double first_rms, double last_rms) {
 
 TEST(MatchingRules, AskForTheInertiaTheyAreNamedAfter) {
   const Mission mission = reference::demo_mission();
-  const auto rules = judge_rules(mission, two_points(1.0, 2.0));
+  const auto rules = evaluate_rules(mission, two_points(1.0, 2.0));
   ASSERT_EQ(rules.size(), 4U);
   EXPECT_EQ(rules.front().rule, ClassicRule::one_to_one);
   EXPECT_EQ(rules.back().rule, ClassicRule::no_flywheels);
@@ -41,16 +41,16 @@ TEST(MatchingRules, AskForTheInertiaTheyAreNamedAfter) {
 }
 
 TEST(MatchingRules, CostWhatTheStraightLineGivesThere) {
-  const auto rules = judge_rules(reference::demo_mission(), two_points(1.0, 2.0));
+  const auto rules = evaluate_rules(reference::demo_mission(), two_points(1.0, 2.0));
   EXPECT_EQ(rules.back().cost.front(), 0.0);
   ASSERT_TRUE(rules.front().disks);
   EXPECT_NEAR(rules.front().cost.front(), *rules.front().disks / 1000.0, 1e-12);
 }
 
-TEST(MatchingRules, CostIsNotKnownBesideAPointWithoutALaw) {
+TEST(MatchingRules, CostIsNotKnownBesideAPointWithoutAController) {
   MatchingStudy study = two_points(1.0, 2.0);
   study.series.front().values[1].found = false;
-  for (const auto& rule : judge_rules(reference::demo_mission(), study)) {
+  for (const auto& rule : evaluate_rules(reference::demo_mission(), study)) {
     EXPECT_TRUE(std::isnan(rule.cost.front()));
   }
 }

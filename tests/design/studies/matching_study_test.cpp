@@ -63,7 +63,7 @@ TEST(MatchingStudy, TunesTheMissionsStructuresAndVerifiesThem) {
     const auto& lagged = study.series[1].values[i];
     EXPECT_TRUE(plain.found && lagged.found);
     EXPECT_TRUE(plain.verification.passed) << plain.verification.failure;
-    EXPECT_LT(lagged.beam_rms, plain.beam_rms * (1.0 + study.tolerance));
+    EXPECT_LT(lagged.boresight_rms, plain.boresight_rms * (1.0 + study.tolerance));
     EXPECT_FALSE(plain.time_domain);
   }
   for (const auto& series : study.series) {
@@ -102,7 +102,7 @@ TEST(MatchingStudy, AnInterruptLeavesWhatWasWhole) {
   options.progress = [&](std::string_view, std::size_t, std::size_t) { ++steps; };
   options.interrupted = [&] { return steps >= 2; };
   const auto study = study_matching(reference::demo_mission(), {}, options);
-  EXPECT_FALSE(study.series[1].curve.laws.back().searched);
+  EXPECT_FALSE(study.series[1].curve.controllers.back().searched);
   EXPECT_FALSE(study.settled);
   EXPECT_FALSE(study.tuned_as_built);
 }
@@ -112,7 +112,7 @@ TEST(MatchingStudy, SaysWhatItCannotWorkOn) {
   options.points = 3;
   EXPECT_EQ(message_of(options), "match: expected at least 4 points, found 3");
   options = small_options();
-  options.most_disks = -1.0;
+  options.max_disks = -1.0;
   EXPECT_EQ(message_of(options), "match: expected more than 0 disks at most, found -1");
 }
 

@@ -17,7 +17,7 @@ MatchSeries series_of(const std::string& name, const std::vector<double>& rms) {
   for (const double one : rms) {
     MatchValue value;
     value.found = true;
-    value.beam_rms = one;
+    value.boresight_rms = one;
     series.values.push_back(std::move(value));
   }
   series.best = least_of(rms);
@@ -33,20 +33,20 @@ MatchingStudy study_of(std::vector<MatchSeries> series) {
   return study;
 }
 
-MatchSeries hunting(MatchSeries series, double amplitude) {
-  HuntingResult rest;
+MatchSeries limit_cycles(MatchSeries series, double amplitude) {
+  LimitCycleResult rest;
   rest.status = RunStatus::complete;
   rest.limit_cycle = true;
-  rest.beam_amplitude = amplitude;
+  rest.boresight_amplitude = amplitude;
   for (auto& value : series.values) value.time_domain = MatchTimeDomain{{rest}, {}};
   return series;
 }
 
-TEST(MatchingVerdict, WeighsNoStructureThatHuntsBeyondTheTightestBudget) {
-  const auto study = study_of({hunting(series_of("PI", {0.2, 0.3, 0.4}), 30.0),
-                               hunting(series_of("DPF", {0.5, 0.6, 0.7}), 0.1)});
-  EXPECT_TRUE(hunts(study, study.series[0]));
-  EXPECT_TRUE(hunting_beyond(study, hunting_of(study, study.series[0])));
+TEST(MatchingVerdict, WeighsNoStructureThatLimitCyclesBeyondTheTightestBudget) {
+  const auto study = study_of({limit_cycles(series_of("PI", {0.2, 0.3, 0.4}), 30.0),
+                               limit_cycles(series_of("DPF", {0.5, 0.6, 0.7}), 0.1)});
+  EXPECT_TRUE(has_limit_cycle(study, study.series[0]));
+  EXPECT_TRUE(limit_cycle_beyond(study, limit_cycle_of(study, study.series[0])));
   EXPECT_FALSE(weighed(study, "PI"));
   EXPECT_TRUE(weighed(study, "DPF"));
   EXPECT_FALSE(weighed(study, "LL")) << "was not studied";
@@ -71,7 +71,7 @@ TEST(MatchingVerdict, ComparesStructuresAsBuilt) {
   const auto built = structures_as_built(study);
   EXPECT_EQ(as_built(study), 1U);
   EXPECT_EQ(built.count, 2U);
-  EXPECT_EQ(built.least, &study.series[1]);
+  EXPECT_EQ(built.minimum, &study.series[1]);
   EXPECT_EQ(built.largest, &study.series[0]);
   EXPECT_NEAR(built.change, 0.5, 1e-12);
 }
@@ -90,12 +90,12 @@ TEST(MatchingVerdict, NamesInertiasAsGoodBeyondTheFlatRange) {
 
 TEST(MatchingVerdict, RulesCostWhatTheStructuresWeighedPay) {
   const auto study = study_of({series_of("PI", {1.0, 1.2, 1.3}), series_of("DPF", {0.9, 0.8, 0.7}),
-                               hunting(series_of("LL", {0.5, 0.6, 0.7}), 30.0)});
+                               limit_cycles(series_of("LL", {0.5, 0.6, 0.7}), 30.0)});
   const RuleVerdict rule{ClassicRule::one_to_one, 1.0, 1.0, {0.2, 0.1, 0.9}};
   const auto costs = costs_of(study, rule);
   EXPECT_EQ(costs.cheapest, &study.series[1]);
   EXPECT_EQ(costs.dearest, &study.series[0]);
-  EXPECT_EQ(costs.least, 0.1);
+  EXPECT_EQ(costs.minimum, 0.1);
   EXPECT_EQ(costs_of(study_of({}), {}).cheapest, nullptr);
 }
 
@@ -119,13 +119,13 @@ TEST(MatchingVerdict, FrictionDecidesWithinWhatTheAntennaMayHave) {
 // Runs in wind of a series: simulated by `factor` over linear, each over members of the nominal
 // rms.
 MatchSeries in_wind(MatchSeries series, double factor, double amplitude, double scatter) {
-  series = hunting(std::move(series), amplitude);
+  series = limit_cycles(std::move(series), amplitude);
   for (auto& value : series.values) {
     MatchTimeDomain& run = *value.time_domain;
-    run.member_rms = value.beam_rms;
+    run.member_rms = value.boresight_rms;
     SimulatedRms& expected = run.expected.emplace();
     expected.records = expected.winds = 10;
-    const double rms = factor * value.beam_rms;
+    const double rms = factor * value.boresight_rms;
     expected.linear_mean_squares = rms * rms * Eigen::VectorXd::LinSpaced(10, 0.8, 1.2);
     expected.mean_squares = expected.linear_mean_squares;
     for (Eigen::Index i = 0; i < 10; ++i) {

@@ -95,7 +95,7 @@ MeasuredTuningOptions at_most(int starts) {
   return options;
 }
 
-TEST(StudyMeasuredTuning, ALawOfAChirpHoldsOnThePlantThatWasRecorded) {
+TEST(StudyMeasuredTuning, AControllerOfAChirpHoldsOnThePlantThatWasRecorded) {
   const Mission mission = reference::demo_mission();
   const Chirp chirp = chirp_of(mission.antenna);
   const auto study =
@@ -117,11 +117,11 @@ TEST(StudyMeasuredTuning, ALawOfAChirpHoldsOnThePlantThatWasRecorded) {
   EXPECT_NEAR(study.channels->low_end_inertia(), reflected_inertia(linear_plant(mission.antenna)),
               0.1);
 
-  ASSERT_EQ(study.laws.size(), 1U);
+  ASSERT_EQ(study.controllers.size(), 1U);
   EXPECT_TRUE(study.any_confident());
-  EXPECT_EQ(study.laws[0].structure, "PI");
-  EXPECT_TRUE(study.laws[0].stable_on_case);
-  for (const double peak : study.laws[0].peaks_on_case) EXPECT_LT(peak, 2.1);
+  EXPECT_EQ(study.controllers[0].structure, "PI");
+  EXPECT_TRUE(study.controllers[0].stable_on_case);
+  for (const double peak : study.controllers[0].peaks_on_case) EXPECT_LT(peak, 2.1);
 }
 
 TEST(StudyMeasuredTuning, TakesTheEncodersAngleFromTheStructureWhereNoneIsRecorded) {
@@ -147,7 +147,7 @@ TEST(StudyMeasuredTuning, ReturnsWhatItHasOnceItIsStopped) {
   const Chirp chirp = chirp_of(mission.antenna);
   const auto study = study_measured_tuning(mission, chirp.campaign, chirp.record, chirp.encoder,
                                            mission.structures, at_most(1));
-  EXPECT_TRUE(study.laws.empty());
+  EXPECT_TRUE(study.controllers.empty());
   EXPECT_FALSE(study.any_confident());
   EXPECT_TRUE(study.channels.has_value());
 }

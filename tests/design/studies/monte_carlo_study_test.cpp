@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "design/studies/held_law.hpp"
+#include "design/studies/fixed_controller.hpp"
 #include <boresight/design/studies/monte_carlo_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -23,17 +23,18 @@ Mission mission_of_test() {
   return mission;
 }
 
-control::ControlLaw law_of_test() {
-  return reference::held_law("PI", 1.0).design.tuning.law;
+control::Controller controller_of_test() {
+  return reference::fixed_controller("PI", 1.0).design.tuning.controller;
 }
 
 // As each plant alone is judged.
 double unstable_fraction(const Mission& mission, const PlantDistribution& distribution,
-                         const control::ControlLaw& law, const MonteCarloOptions& options) {
-  const MonteCarlo study = monte_carlo_of(mission, distribution, law, options);
-  MonteCarloJudge judge(study);
+                         const control::Controller& controller, const MonteCarloOptions& options) {
+  const MonteCarlo study = monte_carlo_of(mission, distribution, controller, options);
+  MonteCarloEvaluator evaluate(study);
   int unstable = 0;
-  for (std::uint64_t i = 0; i < study.plants; ++i) unstable += judge.judge(i).stable() ? 0 : 1;
+  for (std::uint64_t i = 0; i < study.plants; ++i)
+    unstable += evaluate.evaluate(i).stable() ? 0 : 1;
   return static_cast<double>(unstable) / static_cast<double>(study.plants);
 }
 
@@ -42,35 +43,35 @@ TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheDrawsOfItsSeed) {
   const Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   const MonteCarloOptions options{.plants = 150, .seed = 7};
-  const auto summary = study_monte_carlo(mission, distribution, law_of_test(), options);
+  const auto summary = study_monte_carlo(mission, distribution, controller_of_test(), options);
   EXPECT_FALSE(summary.interrupted);
   EXPECT_EQ(summary.plants, 150U);
   EXPECT_EQ(summary.stable + summary.unstable + summary.undecided, 150U);
   ASSERT_GT(summary.stable, 0U);
-  EXPECT_EQ(summary.beam_rms.draws, summary.stable);
+  EXPECT_EQ(summary.boresight_rms.random_samples, summary.stable);
   EXPECT_EQ(summary.inputs, distribution.inputs());
   EXPECT_FALSE(summary.retuned);
 
   const NotablePlant& worst = summary.worst.front();
-  EXPECT_EQ(worst.outcome.beam_rms, summary.beam_rms.largest);
+  EXPECT_EQ(worst.outcome.boresight_rms, summary.boresight_rms.largest);
   EXPECT_EQ(worst.draw.values, distribution.draw(7, worst.index).values);
-  MonteCarloJudge alone(monte_carlo_of(mission, distribution, law_of_test(), options));
+  MonteCarloEvaluator alone(monte_carlo_of(mission, distribution, controller_of_test(), options));
   const auto plant = linear_plant(changed(mission.antenna, changes_of(worst.draw)));
-  EXPECT_EQ(alone.judge(plant, false).beam_rms, worst.outcome.beam_rms);
+  EXPECT_EQ(alone.evaluate(plant, false).boresight_rms, worst.outcome.boresight_rms);
 }
 
 TEST(Instability, IsThatOfTheStudy) {
   const Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   const MonteCarloOptions options{.plants = 150, .seed = 3};
-  control::ControlLaw law = law_of_test();
-  const double position_gain = law.gains[3];
+  control::Controller controller = controller_of_test();
+  const double position_gain = controller.gains[3];
   // From the tuned gain to one far beyond the gain margin.
   for (const double factor : {1.0, 100.0}) {
-    law.gains[3] = factor * position_gain;
-    const auto alone = instability(mission, distribution, law, options);
+    controller.gains[3] = factor * position_gain;
+    const auto alone = instability(mission, distribution, controller, options);
     EXPECT_EQ(alone.value == 1.0, factor == 100.0) << factor;
-    EXPECT_EQ(alone.value, unstable_fraction(mission, distribution, law, options));
+    EXPECT_EQ(alone.value, unstable_fraction(mission, distribution, controller, options));
   }
 }
 
@@ -81,16 +82,16 @@ TEST(StudyMonteCarlo, JudgesBudgetsByTheSimulationOfItsController) {
   const MonteCarloOptions options{.plants = 100, .seed = 1};
   const auto met_at = [&](double budget) {
     mission.budgets.front().rms = budget;
-    return study_monte_carlo(mission, distribution, law_of_test(), options);
+    return study_monte_carlo(mission, distribution, controller_of_test(), options);
   };
   const auto loose = met_at(1.0);
   const NonlinearEffect effect = loose.effect.for_budgets();
   ASSERT_TRUE(std::isfinite(effect.factor));
-  const double largest = loose.beam_rms.largest, least = loose.beam_rms.least;
+  const double largest = loose.boresight_rms.largest, minimum = loose.boresight_rms.minimum;
   const double stable = static_cast<double>(loose.stable) / 100.0;
   EXPECT_EQ(met_at(effect.rms(largest)).budgets[0].met.value, stable);
   EXPECT_LT(met_at(0.999 * effect.rms(largest)).budgets[0].met.value, stable);
-  EXPECT_EQ(met_at(0.999 * effect.rms(least)).budgets[0].met.value, 0.0);
+  EXPECT_EQ(met_at(0.999 * effect.rms(minimum)).budgets[0].met.value, 0.0);
   mission.antenna.nonlinear.reset();
   const auto linear = met_at(largest);
   EXPECT_EQ(linear.effect.factor, 1.0);
@@ -101,14 +102,14 @@ TEST(StudyMonteCarlo, SaysHowProbableItIsThatABudgetIsMet) {
   const Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   const auto summary =
-      study_monte_carlo(mission, distribution, law_of_test(), {.plants = 100, .seed = 1});
+      study_monte_carlo(mission, distribution, controller_of_test(), {.plants = 100, .seed = 1});
   ASSERT_EQ(summary.budgets.size(), 2U);
   EXPECT_EQ(summary.budgets[0].budget.name, "loose");
   EXPECT_EQ(summary.budgets[0].met.value, static_cast<double>(summary.stable) / 100.0);
   EXPECT_EQ(summary.budgets[1].met.value, 0.0);
   ASSERT_EQ(summary.losses.size(), 1U);
   EXPECT_EQ(summary.losses[0].band.name, "X");
-  EXPECT_GT(summary.losses[0].loss.least, 0.0);
+  EXPECT_GT(summary.losses[0].loss.minimum, 0.0);
   EXPECT_FALSE(summary.climate_rms);
 }
 
@@ -116,12 +117,12 @@ TEST(StudyMonteCarlo, IsTheSameForAnyNumberOfThreads) {
   const Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   MonteCarloOptions options{.plants = 250, .seed = 3};
-  const auto one = study_monte_carlo(mission, distribution, law_of_test(), options);
+  const auto one = study_monte_carlo(mission, distribution, controller_of_test(), options);
   options.threads = 3;
-  const auto three = study_monte_carlo(mission, distribution, law_of_test(), options);
+  const auto three = study_monte_carlo(mission, distribution, controller_of_test(), options);
   EXPECT_EQ(one.stable, three.stable);
-  EXPECT_EQ(one.beam_rms.mean.value, three.beam_rms.mean.value);
-  EXPECT_EQ(one.beam_rms.largest, three.beam_rms.largest);
+  EXPECT_EQ(one.boresight_rms.mean.value, three.boresight_rms.mean.value);
+  EXPECT_EQ(one.boresight_rms.largest, three.boresight_rms.largest);
 }
 
 TEST(StudyMonteCarlo, EndsWithWhatItHas) {
@@ -129,8 +130,9 @@ TEST(StudyMonteCarlo, EndsWithWhatItHas) {
   const auto distribution = PlantDistribution::of_ranges(mission);
   MonteCarloOptions options{.plants = 250, .seed = 3};
   options.interrupted = [] { return true; };
-  EXPECT_THROW(study_monte_carlo(mission, distribution, law_of_test(), options), Interrupted);
-  MonteCarloRun run(monte_carlo_of(mission, distribution, law_of_test(), options));
+  EXPECT_THROW(study_monte_carlo(mission, distribution, controller_of_test(), options),
+               Interrupted);
+  MonteCarloRun run(monte_carlo_of(mission, distribution, controller_of_test(), options));
   run.work_on({1}, {});
   const auto summary = summarise(run, mission, distribution, options.seed, 1);
   EXPECT_TRUE(summary.interrupted);

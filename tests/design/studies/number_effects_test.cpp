@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "design/studies/held_law.hpp"
+#include "design/studies/fixed_controller.hpp"
 #include <boresight/design/studies/number_effects.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/numerics/error.hpp>
@@ -23,44 +23,44 @@ MovedNumber moved_by(void (*move)(TrackingProblem&, double), double by) {
   return {to(-by), to(by)};
 }
 
-void denser_air(TrackingProblem& problem, double share) {
-  problem.wind.site.air_density *= 1.0 + share;
+void denser_air(TrackingProblem& problem, double fraction) {
+  problem.wind.site.air_density *= 1.0 + fraction;
 }
 
-void later(TrackingProblem& problem, double share) {
-  problem.delay *= 1.0 + share;
+void later(TrackingProblem& problem, double fraction) {
+  problem.delay *= 1.0 + fraction;
 }
 
 void nothing(TrackingProblem& /*problem*/, double /*share*/) {}
 
-void no_antenna(TrackingProblem& /*problem*/, double share) {
-  if (share > 0.0) throw InvalidInput("no antenna");
+void no_antenna(TrackingProblem& /*problem*/, double fraction) {
+  if (fraction > 0.0) throw InvalidInput("no antenna");
 }
 
-control::ControlLaw law_of_test() {
-  return reference::held_law("PI", 1.0).design.tuning.law;
+control::Controller controller_of_test() {
+  return reference::fixed_controller("PI", 1.0).design.tuning.controller;
 }
 
 // The wind's torque goes with the air's density, and the sensors' noise does not.
 TEST(NumberEffects, AreWhatTheClosedLoopSays) {
   const auto problem = tracking_problem(reference::demo_mission());
-  const auto alone = assess(problem, law_of_test(), {});
-  const auto effects =
-      number_effects({moved_by(denser_air, 0.03)}, law_of_test(), {}, alone.beam_rms, 10, 1);
+  const auto alone = assess(problem, controller_of_test(), {});
+  const auto effects = number_effects({moved_by(denser_air, 0.03)}, controller_of_test(), {},
+                                      alone.boresight_rms, 10, 1);
   ASSERT_EQ(effects.size(), 1U);
   EXPECT_NEAR(effects[0].high_rms, std::hypot(1.03 * alone.wind_rms, alone.noise_rms),
-              1e-4 * alone.beam_rms);
+              1e-4 * alone.boresight_rms);
   EXPECT_NEAR(effects[0].low_rms, std::hypot(0.97 * alone.wind_rms, alone.noise_rms),
-              1e-4 * alone.beam_rms);
+              1e-4 * alone.boresight_rms);
 }
 
 TEST(NumberEffects, AreTheLargestFirstWithoutWhatChangesNothing) {
   const auto problem = tracking_problem(reference::demo_mission());
-  const double rms = assess(problem, law_of_test(), {}).beam_rms;
+  const double rms = assess(problem, controller_of_test(), {}).boresight_rms;
   const std::vector<MovedNumber> numbers{moved_by(nothing, 0.1), moved_by(denser_air, 0.02),
                                          moved_by(no_antenna, 0.1), moved_by(denser_air, 0.2),
                                          moved_by(later, 0.1)};
-  const auto effects = number_effects(numbers, law_of_test(), {}, rms, 10, 2);
+  const auto effects = number_effects(numbers, controller_of_test(), {}, rms, 10, 2);
   ASSERT_GE(effects.size(), 2U);
   EXPECT_EQ(effects[0].number, 3U);
   for (std::size_t i = 0; i < effects.size(); ++i) {
@@ -71,7 +71,7 @@ TEST(NumberEffects, AreTheLargestFirstWithoutWhatChangesNothing) {
     }
   }
   // The same for one thread, and cut where asked.
-  const auto few = number_effects(numbers, law_of_test(), {}, rms, 1, 1);
+  const auto few = number_effects(numbers, controller_of_test(), {}, rms, 1, 1);
   ASSERT_EQ(few.size(), 1U);
   EXPECT_EQ(few[0].number, effects[0].number);
   EXPECT_EQ(few[0].high_rms, effects[0].high_rms);

@@ -13,7 +13,7 @@ namespace {
 TuningResult ended_at_position_gain(std::vector<double> gains) {
   TuningResult tuning;
   tuning.status = TuningStatus::optimal;
-  tuning.law = {control::LoopStructure::pi_with_lag(), std::move(gains)};
+  tuning.controller = {control::LoopStructure::pi_with_lag(), std::move(gains)};
   tuning.gains_at_bound = {"position gain"};
   return tuning;
 }
@@ -25,21 +25,22 @@ TEST(PositionGainTrade, LowersThePositionGainAtTheSameProductAndRms) {
   const auto goals = constraints(mission);
   const std::vector<EnsembleMember> nominal{{"nominal", problem.plant}};
   auto tuning = ended_at_position_gain({0.038316, 0.22045, 2.7894, 30.0, 0.18267});
-  const double rms = judge(problem, nominal, tuning.law, goals, 1).members.front().beam_rms;
+  const double rms =
+      evaluate(problem, nominal, tuning.controller, goals, 1).members.front().boresight_rms;
   ASSERT_TRUE(ends_at_position_gain(tuning));
   const auto trade = position_gain_trade(problem, tuning, rms, goals, nominal);
   ASSERT_TRUE(trade);
-  const double position = trade->law.gains.at(trade->position_gain);
-  const double rate = trade->law.gains.at(trade->rate_gain);
+  const double position = trade->controller.gains.at(trade->position_gain);
+  const double rate = trade->controller.gains.at(trade->rate_gain);
   EXPECT_LE(position, 15.0);
   EXPECT_NEAR(position * rate, 30.0 * 0.038316, 2e-4 * position * rate);
-  EXPECT_LE(trade->beam_rms, 1.01 * rms);
+  EXPECT_LE(trade->boresight_rms, 1.01 * rms);
   // The law that it names has that rms, and keeps its goals as said.
-  tuning.law.gains[0] = rate;
-  tuning.law.gains[3] = position;
-  const auto named = judge(problem, nominal, tuning.law, goals, 1);
-  EXPECT_NEAR(named.members.front().beam_rms, trade->beam_rms, 1e-3 * rms);
-  EXPECT_EQ(named.within_goals, trade->within_goals);
+  tuning.controller.gains[0] = rate;
+  tuning.controller.gains[3] = position;
+  const auto named = evaluate(problem, nominal, tuning.controller, goals, 1);
+  EXPECT_NEAR(named.members.front().boresight_rms, trade->boresight_rms, 1e-3 * rms);
+  EXPECT_EQ(named.within_constraints, trade->within_constraints);
 }
 
 TEST(PositionGainTrade, IsNoneWhereTheRateLoopActsOrNoBoundIsReached) {
@@ -48,8 +49,9 @@ TEST(PositionGainTrade, IsNoneWhereTheRateLoopActsOrNoBoundIsReached) {
   const auto goals = constraints(mission);
   // Twice this rate gain and the loop is unstable.
   auto tuning = ended_at_position_gain({0.4, 0.8, 6.0, 1.35, 0.02});
-  const double rms =
-      judge(problem, {{"nominal", problem.plant}}, tuning.law, goals, 1).members.front().beam_rms;
+  const double rms = evaluate(problem, {{"nominal", problem.plant}}, tuning.controller, goals, 1)
+                         .members.front()
+                         .boresight_rms;
   EXPECT_TRUE(ends_at_position_gain(tuning));
   EXPECT_FALSE(position_gain_trade(problem, tuning, rms, goals, {}));
   tuning.gains_at_bound.clear();

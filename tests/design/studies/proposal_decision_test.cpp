@@ -6,7 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "design/studies/held_law.hpp"
+#include "design/studies/fixed_controller.hpp"
 #include <boresight/design/studies/proposal_decision.hpp>
 
 namespace boresight::design {
@@ -19,7 +19,8 @@ ProposedDesign candidate_of(const std::string& name, double first, double second
   ProposedDesign candidate;
   candidate.name = name;
   candidate.changed = name != "as it is";
-  candidate.laws = {reference::held_law("PI", first), reference::held_law("DPF", second)};
+  candidate.controllers = {reference::fixed_controller("PI", first),
+                           reference::fixed_controller("DPF", second)};
   candidate.chosen = chosen;
   return candidate;
 }
@@ -28,7 +29,7 @@ ProposedDesign candidate_of(const std::string& name, double first, double second
 std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candidates,
                                         const Mission& mission = reference::uncertain_mission()) {
   ProposalOptions options;
-  options.draws = 100;
+  options.random_samples = 100;
   return decide(candidates, mission.antenna, {candidates.size(), &mission},
                 PlantDistribution::of_ranges(mission), options);
 }
@@ -48,7 +49,7 @@ TEST(Decide, ComparesWithOneStructureOnBothOverTheSameDraws) {
   EXPECT_GT(found[1].better.value, 0.95);
 }
 
-TEST(Decide, LeavesOutPairsThatTheChosenLawsHoldApartAlready) {
+TEST(Decide, LeavesOutPairsThatTheChosenControllersHoldApartAlready) {
   const auto decision =
       decided({candidate_of("as it is", 1.0, 0.9, 0), candidate_of("no flywheels", 1.1, 0.95, 0)});
   ASSERT_TRUE(decision);
@@ -57,7 +58,7 @@ TEST(Decide, LeavesOutPairsThatTheChosenLawsHoldApartAlready) {
 
 TEST(Decide, SaysWhomItLeavesOutAndWhy) {
   auto lost = candidate_of("lost", 1.0, 1.0, 0);
-  lost.laws[0].time_domain->wind.status = RunStatus::lost;
+  lost.controllers[0].time_domain->wind.status = RunStatus::lost;
   auto none = candidate_of("none", 1.0, 1.0, 0);
   none.chosen.reset();
   const auto decision = decided(
@@ -66,7 +67,7 @@ TEST(Decide, SaysWhomItLeavesOutAndWhy) {
   ASSERT_EQ(decision->left_out.size(), 2U);
   EXPECT_EQ(decision->left_out[0].candidate, 1U);
   EXPECT_EQ(decision->left_out[0].reason, NotDrawn::run_not_completed);
-  EXPECT_EQ(decision->left_out[1].reason, NotDrawn::no_stable_law);
+  EXPECT_EQ(decision->left_out[1].reason, NotDrawn::no_stable_controller);
   EXPECT_EQ(decision->candidates[decision->best].candidate, 2U);
   EXPECT_THAT(decision->uncertain,
               ElementsAre(UncertainInput::oil_stiffness, UncertainInput::leakage_rate));
@@ -76,7 +77,7 @@ TEST(Decide, SaysWhomItLeavesOutAndWhy) {
 // Fitness comes before the rms, also where nothing is left to choose between.
 TEST(Decide, PutsWhatIsFitFirst) {
   auto unfit = candidate_of("unfit", 0.5, 0.5, 0);
-  unfit.laws[0].goals_met = false;
+  unfit.controllers[0].constraints_met = false;
   const auto decision = decided({candidate_of("as it is", 1.0, 1.0, 0), unfit});
   ASSERT_TRUE(decision);
   EXPECT_EQ(decision->best, 0U);
@@ -120,27 +121,27 @@ TEST(WorthItsCost, IsTheCheapestOfThoseTiedWithTheBest) {
   EXPECT_EQ(worth_its_cost({{false, 0.0, 1.05, true}, {true, 9.0, 1.0, true}}, 1), 1U);
 }
 
-TEST(CandidateLaw, IsComparedWithItsLimitCycleInQuadrature) {
-  CandidateLaw law = reference::held_law("PI", 1.2);
-  law.member_rms = 0.4;
-  EXPECT_NEAR(law.compared_rms(), 0.48, 1e-12);
-  HuntingResult rest;
+TEST(CandidateController, IsComparedWithItsLimitCycleInQuadrature) {
+  CandidateController controller = reference::fixed_controller("PI", 1.2);
+  controller.member_rms = 0.4;
+  EXPECT_NEAR(controller.compared_rms(), 0.48, 1e-12);
+  LimitCycleResult rest;
   rest.limit_cycle = true;
-  rest.beam_amplitude = 0.34;
-  law.time_domain->hunting = {rest};
-  EXPECT_NEAR(law.compared_rms(), std::hypot(0.48, 0.34 / std::sqrt(2.0)), 1e-12);
+  rest.boresight_amplitude = 0.34;
+  controller.time_domain->limit_cycles = {rest};
+  EXPECT_NEAR(controller.compared_rms(), std::hypot(0.48, 0.34 / std::sqrt(2.0)), 1e-12);
   // Several records count before the one.
-  law.time_domain->wind.predicted_rms = 1.0;
-  law.expected.emplace().rms.value = 1.1;
-  EXPECT_NEAR(law.compared_rms(), std::hypot(0.44, 0.34 / std::sqrt(2.0)), 1e-12);
-  law.expected->status = RunStatus::lost;
-  EXPECT_EQ(law.compared_rms(), std::numeric_limits<double>::infinity());
+  controller.time_domain->wind.predicted_rms = 1.0;
+  controller.expected.emplace().rms.value = 1.1;
+  EXPECT_NEAR(controller.compared_rms(), std::hypot(0.44, 0.34 / std::sqrt(2.0)), 1e-12);
+  controller.expected->status = RunStatus::lost;
+  EXPECT_EQ(controller.compared_rms(), std::numeric_limits<double>::infinity());
 }
 
 // The law of ten records of wind whose mean squares differ from the linear loop's in turns.
-void in_records(CandidateLaw& law, double rms, double scatter) {
-  law.time_domain->wind.predicted_rms = 1.0;
-  SimulatedRms& expected = law.expected.emplace();
+void in_records(CandidateController& controller, double rms, double scatter) {
+  controller.time_domain->wind.predicted_rms = 1.0;
+  SimulatedRms& expected = controller.expected.emplace();
   expected.records = 10;
   expected.winds = 10;
   expected.linear_mean_squares = Eigen::VectorXd::LinSpaced(10, 0.8, 1.2);
@@ -155,8 +156,8 @@ TEST(Decide, TakesWhatTheSameWindsLeaveOpenForATie) {
                            candidate_of("no flywheels", 1.0, 1.0, 0)};
     candidates[0].cost = 0.0;
     candidates[1].cost = 10.0;
-    in_records(candidates[0].laws[0], 1.04, 0.0);
-    in_records(candidates[1].laws[0], 1.0, scatter);
+    in_records(candidates[0].controllers[0], 1.04, 0.0);
+    in_records(candidates[1].controllers[0], 1.0, scatter);
     const auto decision = decided(candidates);
     ASSERT_TRUE(decision);
     EXPECT_EQ(decision->best, 1U);

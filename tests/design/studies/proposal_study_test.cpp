@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "design/studies/held_law.hpp"
+#include "design/studies/fixed_controller.hpp"
 #include "refused_call.hpp"
 #include <boresight/design/studies/proposal_study.hpp>
 #include <boresight/numerics/error.hpp>
@@ -20,7 +20,7 @@ ProposedAntenna proposed(const std::string& name, const std::vector<plant::Anten
   ProposedAntenna one;
   one.name = name;
   one.mission = reference::uncertain_mission();
-  one.mission.uncertainty.draws = 2;
+  one.mission.uncertainty.random_samples = 2;
   one.mission.antenna = plant::changed(one.mission.antenna, changes);
   one.structures = {one.mission.structures.front()};
   one.cost = cost;
@@ -34,7 +34,7 @@ PlantUncertainty uncertainty() {
 
 ProposalOptions quick() {
   ProposalOptions options;
-  options.draws = 100;
+  options.random_samples = 100;
   options.starts = 1;
   options.time_domain = false;
   return options;
@@ -49,8 +49,8 @@ TEST(StudyProposals, RanksWhatEachMakesOfTheAntenna) {
   const ProposalStudy study = study_proposals(antennas, uncertainty(), quick());
   ASSERT_EQ(study.candidates.size(), 3U);
   EXPECT_TRUE(study.not_run.empty());
-  EXPECT_EQ(study.candidates[1].laws[0].design.beam_rms,
-            study.candidates[0].laws[0].design.beam_rms);
+  EXPECT_EQ(study.candidates[1].controllers[0].design.boresight_rms,
+            study.candidates[0].controllers[0].design.boresight_rms);
   EXPECT_LT(study.candidates[2].motor_to_load_ratio, study.candidates[0].motor_to_load_ratio);
   EXPECT_GT(study.candidates[2].oil_mode.frequency, study.candidates[0].oil_mode.frequency);
   ASSERT_TRUE(study.decision);
@@ -74,11 +74,11 @@ TEST(StudyProposals, RefusesWhatCannotBeCompared) {
   ProposalOptions options = quick();
   EXPECT_THAT(reference::Call([&] { study_proposals({}, uncertainty(), options); }),
               ThrowsMessage<InvalidInput>(HasSubstr("expected an antenna")));
-  options.draws = 99;
+  options.random_samples = 99;
   EXPECT_THAT(reference::Call([&] {
                 study_proposals({proposed("as it is", {}, 0.0)}, uncertainty(), options);
               }),
-              ThrowsMessage<InvalidInput>(HasSubstr("expected 100 draws or more, found 99")));
+              ThrowsMessage<InvalidInput>(HasSubstr("expected 100 samples or more, found 99")));
 }
 
 }  // namespace

@@ -9,19 +9,20 @@
 namespace boresight::design {
 namespace {
 
-TunedLaw tuned_row(const std::string& structure, TunedFor purpose, double wind_speed = 10.0) {
-  TunedLaw row;
+TunedController tuned_row(const std::string& structure, TunedFor purpose,
+                          double wind_speed = 10.0) {
+  TunedController row;
   row.structure = structure;
   row.tuned_for = purpose;
   row.wind_speed = wind_speed;
   row.design.tuning.status = TuningStatus::optimal;
-  row.design.tuning.law.structure = control::LoopStructure::named(structure);
+  row.design.tuning.controller.structure = control::LoopStructure::named(structure);
   return row;
 }
 
-TuningStudy study_of(std::vector<TunedLaw> rows) {
+TuningStudy study_of(std::vector<TunedController> rows) {
   TuningStudy study;
-  study.laws = std::move(rows);
+  study.controllers = std::move(rows);
   return study;
 }
 
@@ -29,7 +30,7 @@ TEST(RetunedPresent, IsTheRobustDesignOfThePresentStructure) {
   const TuningStudy study =
       study_of({tuned_row("PI", TunedFor::robust), tuned_row("DPF", TunedFor::nominal),
                 tuned_row("DPF", TunedFor::robust, 12.0), tuned_row("DPF", TunedFor::robust)});
-  EXPECT_EQ(retuned_present(study, "DPF", 10.0), &study.laws[3]);
+  EXPECT_EQ(retuned_present(study, "DPF", 10.0), &study.controllers[3]);
   EXPECT_EQ(retuned_present(study, "LL", 10.0), nullptr);
 }
 
@@ -37,15 +38,15 @@ TEST(RetunedPresent, IsTheStructureOfFewestGainsWithoutAPresentOne) {
   const TuningStudy study =
       study_of({tuned_row("FULL", TunedFor::robust), tuned_row("PI", TunedFor::present),
                 tuned_row("PI", TunedFor::nominal), tuned_row("PI", TunedFor::robust)});
-  EXPECT_EQ(retuned_present(study, "", 10.0), &study.laws[3]);
+  EXPECT_EQ(retuned_present(study, "", 10.0), &study.controllers[3]);
 }
 
 TEST(RetunedPresent, IsNoUnstableDesign) {
   TuningStudy study =
       study_of({tuned_row("PI", TunedFor::nominal), tuned_row("PI", TunedFor::robust)});
-  study.laws[1].design.tuning.status = TuningStatus::unstable;
-  EXPECT_EQ(retuned_present(study, "PI", 10.0), &study.laws[0]);
-  study.laws[0].design.tuning.status = TuningStatus::unstable;
+  study.controllers[1].design.tuning.status = TuningStatus::unstable;
+  EXPECT_EQ(retuned_present(study, "PI", 10.0), &study.controllers[0]);
+  study.controllers[0].design.tuning.status = TuningStatus::unstable;
   EXPECT_EQ(retuned_present(study, "PI", 10.0), nullptr);
 }
 

@@ -25,9 +25,9 @@ DesignTask task(const std::string& name, LoopStructure structure, double disks) 
   return task;
 }
 
-TEST(Verify, PassesACautiousLawAndFailsAWildOne) {
+TEST(Verify, PassesACautiousControllerAndFailsAWildOne) {
   const TrackingProblem problem = reference::tracking_problem();
-  const auto sound = verify(problem, reference::cautious_law(), {});
+  const auto sound = verify(problem, reference::cautious_gains(), {});
   EXPECT_TRUE(sound.stability.stable());
   EXPECT_TRUE(sound.passed);
   EXPECT_LT(relative_error(sound.lyapunov.total, sound.spectral_rms), 5e-3);
@@ -39,16 +39,16 @@ TEST(Verify, PassesACautiousLawAndFailsAWildOne) {
   EXPECT_EQ(wild.lyapunov.total, 0.0);
 }
 
-TEST(Verify, FailsAStableLawWhosePeakIsTooHigh) {
+TEST(Verify, FailsAStableControllerWhosePeakIsTooHigh) {
   const TrackingProblem problem = reference::tracking_problem();
-  const auto law = reference::cautious_law();
-  const auto peaks = verify(problem, law, {}).peaks;
+  const auto controller = reference::cautious_gains();
+  const auto peaks = verify(problem, controller, {}).peaks;
   for (std::size_t b = 0; b < 3; ++b) {
-    HardGoals goals;
+    Constraints goals;
     goals.sensitivity_peak[b] = 0.999 * peaks[b].upper;
-    EXPECT_FALSE(verify(problem, law, goals).passed) << b;
+    EXPECT_FALSE(verify(problem, controller, goals).passed) << b;
     goals.sensitivity_peak[b] = 1.001 * peaks[b].upper;
-    EXPECT_TRUE(verify(problem, law, goals).passed) << b;
+    EXPECT_TRUE(verify(problem, controller, goals).passed) << b;
   }
 }
 
@@ -57,10 +57,11 @@ TEST(Solve, GivesOneDesignInSkyUnitsWithItsMargins) {
   const Design design = solve(one);
   EXPECT_EQ(design.name, "24 disks");
   const auto& evaluation = design.tuning.evaluation;
-  EXPECT_LT(relative_error(design.beam_rms * one.problem.gear_ratio,
-                           std::sqrt(evaluation.beam_variance())),
+  EXPECT_LT(relative_error(design.boresight_rms * one.problem.gear_ratio,
+                           std::sqrt(evaluation.boresight_variance())),
             1e-14);
-  EXPECT_LT(relative_error(std::hypot(design.wind_rms, design.noise_rms), design.beam_rms), 1e-12);
+  EXPECT_LT(relative_error(std::hypot(design.wind_rms, design.noise_rms), design.boresight_rms),
+            1e-12);
   EXPECT_NEAR(design.hydraulic_mode.frequency, 0.848, 5e-4);
   EXPECT_NEAR(
       design.reflected_inertia,
@@ -93,8 +94,8 @@ TEST(SolveAll, GivesTheSameBytesOnOneThreadAndOnTwo) {
   for (std::size_t i = 0; i < 4; ++i) {
     EXPECT_EQ(one[i].name, tasks[i].name);
     EXPECT_EQ(one[i].name, two[i].name);
-    EXPECT_EQ(one[i].tuning.law.gains, two[i].tuning.law.gains);
-    EXPECT_EQ(one[i].beam_rms, two[i].beam_rms);
+    EXPECT_EQ(one[i].tuning.controller.gains, two[i].tuning.controller.gains);
+    EXPECT_EQ(one[i].boresight_rms, two[i].boresight_rms);
     EXPECT_EQ(one[i].verification.lyapunov.total, two[i].verification.lyapunov.total);
     EXPECT_EQ(one[i].verification.passed, two[i].verification.passed);
   }
@@ -110,24 +111,24 @@ TEST(SolveAll, HandsOnTheErrorOfATask) {
 
 TEST(Verify, SaysWhyItFails) {
   const TrackingProblem problem = reference::tracking_problem();
-  HardGoals narrow;
+  Constraints narrow;
   narrow.sensitivity_peak = {1.01, 1.01, 1.01};
-  const auto strict = verify(problem, reference::cautious_law(), narrow);
+  const auto strict = verify(problem, reference::cautious_gains(), narrow);
   EXPECT_FALSE(strict.passed);
-  EXPECT_THAT(strict.failure, testing::HasSubstr("peak of S at"));
+  EXPECT_THAT(strict.failure, testing::HasSubstr("Ms at"));
   const auto wild = verify(problem, {LoopStructure::pi(), {20.0, 1.0, 0.05, 1e-3}}, {});
   EXPECT_THAT(wild.failure, testing::HasSubstr("not stable"));
-  HardGoals quiet;
-  quiet.valve_effort = 1e-6;
-  EXPECT_THAT(verify(problem, reference::cautious_law(), quiet).failure,
-              testing::HasSubstr("valve effort"));
+  Constraints quiet;
+  quiet.control_effort = 1e-6;
+  EXPECT_THAT(verify(problem, reference::cautious_gains(), quiet).failure,
+              testing::HasSubstr("control effort"));
 }
 
 TEST(Verify, DoesNotDependOnTheBandOfTheRms) {
   TrackingProblem problem = reference::tracking_problem();
-  const auto whole = verify(problem, reference::cautious_law(), {});
+  const auto whole = verify(problem, reference::cautious_gains(), {});
   problem.rms_band = {0.01, 2.0};
-  const auto part = verify(problem, reference::cautious_law(), {});
+  const auto part = verify(problem, reference::cautious_gains(), {});
   EXPECT_TRUE(part.passed);
   EXPECT_LT(relative_error(part.spectral_rms, whole.spectral_rms), 1e-4);
   for (std::size_t b = 0; b < 3; ++b) {
@@ -142,18 +143,18 @@ TEST(ImproveAlong, BringsANeighboursOptimumWhereRandomStartsMissedIt) {
   }
   auto designs = solve_all(tasks, 1, {});
   // A cautious law in place of the middle's optimum.
-  designs[1].tuning.law = reference::cautious_law();
+  designs[1].tuning.controller = reference::cautious_gains();
   designs[1].tuning.evaluation =
-      make_evaluator(tasks[1].problem).evaluate(designs[1].tuning.law, false);
+      make_evaluator(tasks[1].problem).evaluate(designs[1].tuning.controller, false);
   designs[1].tuning.status = TuningStatus::optimal;
   const auto before = designs;
   improve_along(tasks, designs);
   // Fewer disks point better than more (the neighbour's law, re-tuned).
-  EXPECT_LT(designs[1].beam_rms, designs[0].beam_rms);
+  EXPECT_LT(designs[1].boresight_rms, designs[0].boresight_rms);
   EXPECT_TRUE(designs[1].verification.passed);
   for (std::size_t i = 0; i < designs.size(); ++i) {
-    EXPECT_LE(designs[i].tuning.evaluation.beam_variance(),
-              before[i].tuning.evaluation.beam_variance());
+    EXPECT_LE(designs[i].tuning.evaluation.boresight_variance(),
+              before[i].tuning.evaluation.boresight_variance());
   }
   designs.pop_back();
   EXPECT_THROW(improve_along(tasks, designs), InvalidInput);

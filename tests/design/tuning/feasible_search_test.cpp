@@ -58,23 +58,23 @@ struct Kinked {
   }
 
   // By brute force.
-  static double least_cost() {
-    double least = infinity;
+  static double min_cost() {
+    double minimum = infinity;
     constexpr int steps = 4000;
     for (int i = 0; i <= steps; ++i) {
       const double x = -4.0 + 8.0 * i / steps;
       for (int j = 0; j <= steps; ++j) {
         const double y = -4.0 + 8.0 * j / steps;
-        if (violation(x, y) <= 0.0) least = std::min(least, cost(x, y));
+        if (violation(x, y) <= 0.0) minimum = std::min(minimum, cost(x, y));
       }
     }
-    return least;
+    return minimum;
   }
 };
 
 TEST(FeasibleSearch, NeverReportsAnInfeasiblePointOrOneWorseThanItHasSeen) {
   Kinked kinked;
-  const double least = Kinked::least_cost();
+  const double minimum = Kinked::min_cost();
   std::mt19937_64 generator(7);
   int optimal = 0, started = 0;
   for (int start = 0; start < 500; ++start) {
@@ -98,7 +98,7 @@ TEST(FeasibleSearch, NeverReportsAnInfeasiblePointOrOneWorseThanItHasSeen) {
     EXPECT_EQ(search.best()->cost, best_seen);
     EXPECT_EQ(static_cast<std::size_t>(search.evaluations()),
               kinked.seen.size() + static_cast<std::size_t>(search.undefined_evaluations()));
-    if (found->cost < least + 1e-6) ++optimal;
+    if (found->cost < minimum + 1e-6) ++optimal;
   }
   EXPECT_GT(started, 450);
   EXPECT_GT(optimal, 0.95 * started) << optimal << " of " << started;
@@ -207,7 +207,7 @@ TEST(FeasibleSearch, TakesNotANumberForUndefined) {
     FeasibleSearch search(problem);
     EXPECT_FALSE(search.search_from({0.0, 2.0})) << "an undefined start is given up";
     EXPECT_EQ(search.evaluations(), 1);
-    const auto start = search.retreat({0.0, 2.0}, {1.0, -2.0});
+    const auto start = search.backtrack({0.0, 2.0}, {1.0, -2.0});
     EXPECT_LE(start[1], 0.6);
     const auto found = search.search_from(start);
     ASSERT_TRUE(found);
@@ -250,7 +250,7 @@ TEST(FeasibleSearch, KeepsTheBestWhenItIsStopped) {
     EXPECT_LE(found->violation, 0.0);
 
     FeasibleSearchOptions capped;
-    capped.most_evaluations = cap;
+    capped.max_evaluations = cap;
     FeasibleSearch other(kinked.problem(), capped);
     EXPECT_EQ(other.search_from({0.0, 0.5})->point, found->point);
     EXPECT_EQ(other.evaluations(), cap);
@@ -306,7 +306,7 @@ TEST(FeasibleSearch, SaysWhatItExpects) {
   EXPECT_THAT(reference::Call([&] { search.evaluate({1.0}); }),
               ThrowsMessage<InvalidInput>(HasSubstr("2 variables, found 1")));
   EXPECT_THAT(reference::Call([&] {
-                search.retreat({1.0, 1.0}, {1.0});
+                search.backtrack({1.0, 1.0}, {1.0});
               }),
               ThrowsMessage<InvalidInput>(HasSubstr("one size, found 2 and 1")));
 }

@@ -63,19 +63,19 @@ std::vector<double> tuned_on_model(const MeasuredProblem& problem, const LoopStr
   }
   search.constraints = 10;
   search.evaluate = [&](const std::vector<double>& point, ConstrainedValues& values) {
-    control::ControlLaw law{structure, point};
-    for (double& gain : law.gains) gain = std::exp(gain);
-    const auto evaluation = evaluator.evaluate(law, true);
+    control::Controller controller{structure, point};
+    for (double& gain : controller.gains) gain = std::exp(gain);
+    const auto evaluation = evaluator.evaluate(controller, true);
     if (!evaluation.stable()) return false;
     const std::size_t size = point.size();
     std::ranges::fill(values.constraints, -1.0);
     std::ranges::fill(values.constraint_gradients, 0.0);
-    values.objectives[0] = std::log(evaluation.beam_variance());
+    values.objectives[0] = std::log(evaluation.boresight_variance());
     values.constraints[9] = std::log(evaluation.effort_variance / 0.36);
     for (std::size_t k = 0; k < size; ++k) {
       values.objective_gradients[k] =
           (evaluation.wind_log_gradient[k] + evaluation.noise_log_gradient[k]) /
-          evaluation.beam_variance();
+          evaluation.boresight_variance();
       values.constraint_gradients[9 * size + k] =
           evaluation.effort_log_gradient[k] / evaluation.effort_variance;
     }
@@ -112,17 +112,17 @@ TEST(MeasuredTuning, IsTheModelsTuningWhereTheMeasurementIsGood) {
   const auto result = tune(problem, structure, {}, options);
   EXPECT_EQ(result.status, MeasuredTuningStatus::confident);
   EXPECT_TRUE(result.verification.passed) << result.verification.failure;
-  const auto gains = tuned_on_model(problem, structure, result.law.gains);
-  ASSERT_EQ(gains.size(), result.law.gains.size());
+  const auto gains = tuned_on_model(problem, structure, result.controller.gains);
+  ASSERT_EQ(gains.size(), result.controller.gains.size());
   for (std::size_t k = 0; k < gains.size(); ++k) {
-    EXPECT_NEAR(result.law.gains[k], gains[k], 0.01 * gains[k]) << structure.gains()[k].name;
+    EXPECT_NEAR(result.controller.gains[k], gains[k], 0.01 * gains[k]) << structure.gains()[k].name;
   }
   auto model = model_evaluator(problem);
-  const double rms = std::sqrt(model.evaluate({structure, gains}, false).beam_variance());
+  const double rms = std::sqrt(model.evaluate({structure, gains}, false).boresight_variance());
   EXPECT_NEAR(result.rms, rms, 0.005 * rms);
   // Where the tuner says that the rms stands on what was not measured.
-  EXPECT_GT(result.wind_share.below, 0.01);
-  EXPECT_LT(result.wind_share.total(), 0.1);
+  EXPECT_GT(result.wind_fraction.below, 0.01);
+  EXPECT_LT(result.wind_fraction.total(), 0.1);
   EXPECT_NEAR(result.by_stiffness, -1.07, 0.05);
 }
 
@@ -142,14 +142,14 @@ TEST(MeasuredTuning, KeepsItsGoalsOnTheTruePlant) {
       EXPECT_LE(peak.within_confidence.magnitude, 2.004);
     }
     auto model = model_evaluator(problem);
-    const auto truth = model.evaluate(result.law, false);
-    EXPECT_TRUE(control::stability(reference::antenna(), result.law, problem.delay,
+    const auto truth = model.evaluate(result.controller, false);
+    EXPECT_TRUE(control::stability(reference::antenna(), result.controller, problem.delay,
                                    model.response().frequency)
                     .stable());
     for (const auto loop_break : control::loop_breaks) {
       EXPECT_LT(truth.highest_peak(loop_break), 2.0) << to_string(loop_break);
     }
-    EXPECT_NEAR(std::sqrt(truth.beam_variance()), result.rms, 0.05 * result.rms);
+    EXPECT_NEAR(std::sqrt(truth.boresight_variance()), result.rms, 0.05 * result.rms);
   }
 }
 
@@ -174,8 +174,9 @@ TEST(MeasuredTuning, KnowsNoUnitsOfTorque) {
   }
   const auto scaled = tuned(measured, unit);
   EXPECT_NEAR(scaled.rms, result.rms, 1e-9 * result.rms);
-  for (std::size_t k = 0; k < result.law.gains.size(); ++k) {
-    EXPECT_NEAR(scaled.law.gains[k], result.law.gains[k], 1e-4 * result.law.gains[k]);
+  for (std::size_t k = 0; k < result.controller.gains.size(); ++k) {
+    EXPECT_NEAR(scaled.controller.gains[k], result.controller.gains[k],
+                1e-4 * result.controller.gains[k]);
   }
 }
 
@@ -251,7 +252,7 @@ TEST(MeasuredTuning, TunesFromAChirpOfTheNonlinearAntenna) {
                                  {.delay = problem.delay,
                                   .noise = problem.noise,
                                   .wind_spectrum = Eigen::ArrayXd::Zero(grid.size())});
-    const auto evaluation = exact.evaluate(result.law, false);
+    const auto evaluation = exact.evaluate(result.controller, false);
     EXPECT_TRUE(evaluation.stable());
     for (const auto loop_break : control::loop_breaks) {
       EXPECT_LT(evaluation.highest_peak(loop_break), 2.1) << to_string(loop_break);
@@ -262,10 +263,10 @@ TEST(MeasuredTuning, TunesFromAChirpOfTheNonlinearAntenna) {
 TEST(MeasuredTuning, SaysWhereTheMeasurementEndsTooEarly) {
   // The gain of this law is still above 1 at 0.5 Hz.
   const MeasuredProblem problem = measured_problem(0.9999, 1, 0.02, 0.5);
-  control::ControlLaw law{LoopStructure::pi(), {}};
-  for (const auto& gain : law.structure.gains()) law.gains.push_back(gain.lower);
-  law.gains[0] = 2.0;
-  const auto verification = verify(problem, law, {}, 1.0);
+  control::Controller controller{LoopStructure::pi(), {}};
+  for (const auto& gain : controller.structure.gains()) controller.gains.push_back(gain.lower);
+  controller.gains[0] = 2.0;
+  const auto verification = verify(problem, controller, {}, 1.0);
   EXPECT_FALSE(verification.passed);
   EXPECT_THAT(verification.failure, HasSubstr("lies beyond it"));
   EXPECT_GT(verification.gain_at_highest[0], 1.0);
@@ -278,12 +279,12 @@ TEST(MeasuredTuning, FindsUnstableLoopsUnstableAsEigenvaluesDo) {
   const auto& structure = LoopStructure::pressure_feedback();
   int stable = 0, seen = 0;
   for (int trial = 0; trial < 30; ++trial) {
-    control::ControlLaw law{structure, {}};
+    control::Controller controller{structure, {}};
     for (const auto& gain : structure.gains()) {
-      law.gains.push_back(random.log_uniform(gain.lower, gain.upper));
+      controller.gains.push_back(random.log_uniform(gain.lower, gain.upper));
     }
-    const auto verdict = control::stability(reference::antenna(), law, problem.delay, grid);
-    const auto verification = verify(problem, law, {{100.0, 100.0, 100.0}, 1.0}, 0.0);
+    const auto verdict = control::stability(reference::antenna(), controller, problem.delay, grid);
+    const auto verification = verify(problem, controller, {{100.0, 100.0, 100.0}, 1.0}, 0.0);
     const double top = std::max(verification.gain_at_highest[0], verification.gain_at_highest[1]);
     if (top > 0.9 || !verification.open_steps.empty() || verdict.dead_time_residue > 0.9) continue;
     ++seen;
@@ -297,19 +298,19 @@ TEST(MeasuredTuning, FindsUnstableLoopsUnstableAsEigenvaluesDo) {
 
 TEST(MeasuredTuning, StatesGoalsThatCannotBeMet) {
   const MeasuredProblem problem = measured_problem(0.9999, 1, 0.05, 10.0);
-  MeasuredGoals goals;
+  MeasuredConstraints goals;
   goals.sensitivity_peak = {1.01, 1.01, 1.01};
   MeasuredTuningOptions options;
   options.starts = 2;
   const auto result = tune(problem, LoopStructure::pi(), goals, options);
   EXPECT_EQ(result.status, MeasuredTuningStatus::infeasible);
   EXPECT_FALSE(result.verification.passed);
-  EXPECT_FALSE(result.active_goals.empty());
+  EXPECT_FALSE(result.active_constraints.empty());
 }
 
 TEST(MeasuredTuning, RefusesWhatMakesNoSense) {
   const MeasuredProblem problem = measured_problem(0.9999, 1, 0.05, 10.0);
-  const auto message = [&](const MeasuredGoals& goals, const MeasuredTuningOptions& options) {
+  const auto message = [&](const MeasuredConstraints& goals, const MeasuredTuningOptions& options) {
     try {
       tune(problem, LoopStructure::pi(), goals, options);
     } catch (const InvalidInput& error) {

@@ -13,13 +13,13 @@ using reference::relative_error;
 TEST(PeerTuning, FindsTheOptimumThatOthersFind) {
   const auto tuning = reference::tune_peer(5);
   ASSERT_TRUE(tuning.has_value());
-  const auto judged = reference::judge_peer(5, tuning->gains);
-  EXPECT_LT(judged.abscissa, 0.0);
-  EXPECT_LT(relative_error(judged.rms, reference::peer_tuned_rms), 1e-6);
-  EXPECT_LT(judged.peak, reference::peer_peak_limit * (1.0 + 1e-6));
+  const auto evaluated = reference::evaluate_peer(5, tuning->gains);
+  EXPECT_LT(evaluated.abscissa, 0.0);
+  EXPECT_LT(relative_error(evaluated.rms, reference::peer_tuned_rms), 1e-6);
+  EXPECT_LT(evaluated.peak, reference::peer_peak_limit * (1.0 + 1e-6));
   // What the search saw is what the judges see.
-  EXPECT_LT(relative_error(tuning->rms, judged.rms), 1e-8);
-  EXPECT_LT(relative_error(tuning->peak, judged.peak), 1e-6);
+  EXPECT_LT(relative_error(tuning->rms, evaluated.rms), 1e-8);
+  EXPECT_LT(relative_error(tuning->peak, evaluated.peak), 1e-6);
 }
 
 TEST(PeerTuning, FindsItFromNearlyEveryStart) {
@@ -34,11 +34,11 @@ TEST(PeerTuning, FindsItFromNearlyEveryStart) {
     const auto tuning =
         reference::tune_peer(5, {rate, rate_integral, position, near(start.position_integral)});
     if (!tuning) continue;
-    const auto judged = reference::judge_peer(5, tuning->gains);
+    const auto evaluated = reference::evaluate_peer(5, tuning->gains);
     // Whatever is reported is feasible.
-    EXPECT_LT(judged.abscissa, 0.0);
-    EXPECT_LT(judged.peak, reference::peer_peak_limit * (1.0 + 1e-6));
-    reached += relative_error(judged.rms, reference::peer_tuned_rms) < 1e-6 ? 1 : 0;
+    EXPECT_LT(evaluated.abscissa, 0.0);
+    EXPECT_LT(evaluated.peak, reference::peer_peak_limit * (1.0 + 1e-6));
+    reached += relative_error(evaluated.rms, reference::peer_tuned_rms) < 1e-6 ? 1 : 0;
   }
   EXPECT_GE(reached, 198);
 }
@@ -46,11 +46,11 @@ TEST(PeerTuning, FindsItFromNearlyEveryStart) {
 TEST(PeerTuning, KnowsAnotherOptimumAtTheBoundOfTheRateIntegral) {
   const auto tuning = reference::tune_peer(5, {0.5, 1e-3, 3.7, 17.0});
   ASSERT_TRUE(tuning.has_value());
-  const auto judged = reference::judge_peer(5, tuning->gains);
-  EXPECT_LT(judged.abscissa, 0.0);
-  EXPECT_GT(judged.abscissa, -0.01);
-  EXPECT_LT(judged.peak, reference::peer_peak_limit * (1.0 + 1e-6));
-  EXPECT_LT(relative_error(judged.rms, 2.44083), 1e-5);
+  const auto evaluated = reference::evaluate_peer(5, tuning->gains);
+  EXPECT_LT(evaluated.abscissa, 0.0);
+  EXPECT_GT(evaluated.abscissa, -0.01);
+  EXPECT_LT(evaluated.peak, reference::peer_peak_limit * (1.0 + 1e-6));
+  EXPECT_LT(relative_error(evaluated.rms, 2.44083), 1e-5);
 }
 
 TEST(PeerTuning, WithFiveHundredModesEndsAtItsLimit) {

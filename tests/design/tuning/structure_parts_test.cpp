@@ -14,7 +14,7 @@
 namespace boresight::design {
 namespace {
 
-using control::ControlLaw;
+using control::Controller;
 using control::LoopStructure;
 using Places = std::vector<std::size_t>;
 
@@ -72,13 +72,13 @@ TEST(StructureParts, AreTunedBeforeWhatExtendsThem) {
 }
 
 TEST(StructureParts, TransferredGainsKeepWhatIsSharedAndDoNothingElse) {
-  const ControlLaw law{LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
+  const Controller controller{LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
   for (const char* name : {"FULL", "FULL+N", "FULL+N+C"}) {
     const auto structure = LoopStructure::named(name);
-    const ControlLaw full{structure, transferred_gains(law, structure)};
+    const Controller full{structure, transferred_gains(controller, structure)};
     EXPECT_NO_THROW(control::validate(full));
     for (const double w : {0.01, 1.0, 10.0}) {
-      const auto part = control::compensator_response(law, w);
+      const auto part = control::compensator_response(controller, w);
       const auto whole = control::compensator_response(full, w);
       EXPECT_LT(std::abs(whole.rate / part.rate - 1.0), 1e-3 + w / 1e4) << name;
       EXPECT_EQ(whole.position, part.position);
@@ -89,34 +89,34 @@ TEST(StructureParts, TransferredGainsKeepWhatIsSharedAndDoNothingElse) {
 }
 
 TEST(StructureParts, RandomStartsMoveOnlyWhatIsAdded) {
-  const ControlLaw law{LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
+  const Controller controller{LoopStructure::pi(), {0.2, 0.8, 0.2, 0.02}};
   const auto structure = LoopStructure::named("DPF");
-  const auto starts = starts_from_part(law, structure, 3, 40);
+  const auto starts = starts_from_part(controller, structure, 3, 40);
   ASSERT_EQ(starts.size(), 41U);
-  EXPECT_EQ(starts.front(), transferred_gains(law, structure));
-  EXPECT_EQ(starts_from_part(law, structure, 3, 40), starts);
-  EXPECT_NE(starts_from_part(law, structure, 4, 40), starts);
+  EXPECT_EQ(starts.front(), transferred_gains(controller, structure));
+  EXPECT_EQ(starts_from_part(controller, structure, 3, 40), starts);
+  EXPECT_NE(starts_from_part(controller, structure, 4, 40), starts);
   for (std::size_t k = 0; k < structure.gains().size(); ++k) {
     const auto& gain = structure.gains()[k];
     const bool shared = gain.symbol != "wp" && gain.symbol != "kT" && gain.symbol != "wd";
-    double least = starts[1][k], largest = starts[1][k];
+    double minimum = starts[1][k], largest = starts[1][k];
     for (const auto& start : starts) {
       EXPECT_GE(start[k], gain.lower);
       EXPECT_LE(start[k], gain.upper);
       if (&start == &starts.front()) continue;
-      least = std::min(least, start[k]);
+      minimum = std::min(minimum, start[k]);
       largest = std::max(largest, start[k]);
     }
     // Over most of its decades, or not at all.
-    const double share = std::log(largest / least) / std::log(gain.upper / gain.lower);
-    EXPECT_TRUE(shared ? share == 0.0 : share > 0.8) << gain.symbol;
+    const double fraction = std::log(largest / minimum) / std::log(gain.upper / gain.lower);
+    EXPECT_TRUE(shared ? fraction == 0.0 : fraction > 0.8) << gain.symbol;
   }
 }
 
 // From the neutral setting a robust search that carried the problem's own plant alone would go to
 // the nominal optimum first and end up with another law than the best, which hundreds of random
 // starts find (docs/reference-designs.md).
-TEST(ImproveFrom, StaysWithTheLawOfAPart) {
+TEST(ImproveFrom, StaysWithTheControllerOfAPart) {
   DesignTask task;
   task.problem = reference::tracking_problem();
   task.structure = LoopStructure::named("DPF");
@@ -129,16 +129,16 @@ TEST(ImproveFrom, StaysWithTheLawOfAPart) {
   Design whole = solve(task);
   const double before = whole.tuning.soft_rms;
   const bool improved =
-      improve_from(task, starts_from_part(part.tuning.law, task.structure, 1, 3), whole);
+      improve_from(task, starts_from_part(part.tuning.controller, task.structure, 1, 3), whole);
   EXPECT_EQ(improved, whole.tuning.soft_rms < before);
   EXPECT_LE(whole.tuning.soft_rms, before);
   constexpr double best = 0.302195;
-  EXPECT_LT(whole.beam_rms / reference::mdeg, 1.005 * best);
+  EXPECT_LT(whole.boresight_rms / reference::mdeg, 1.005 * best);
   EXPECT_TRUE(whole.verification.passed);
   EXPECT_EQ(whole.tuning.starts, 1);
   // Nothing to improve from, and nothing better from where it is.
   EXPECT_FALSE(improve_from(task, {}, whole));
-  EXPECT_FALSE(improve_from(task, {whole.tuning.law.gains}, whole));
+  EXPECT_FALSE(improve_from(task, {whole.tuning.controller.gains}, whole));
 }
 
 }  // namespace

@@ -42,21 +42,21 @@ TuningOptions coarse(std::uint64_t seed = 1) {
 
 TEST(Tune, MeetsEveryGoalOnTheReferenceAntenna) {
   const TrackingProblem problem = reference::tracking_problem();
-  const HardGoals goals;
+  const Constraints goals;
   for (const auto& structure : {LoopStructure::pi(), LoopStructure::pi_with_lag()}) {
     const TuningResult result = tune(problem, structure, goals, quick());
     EXPECT_EQ(result.status, TuningStatus::optimal);
-    EXPECT_LE(result.worst_goal_ratio, 1.0 + 1e-9);
-    EXPECT_FALSE(result.active_goals.empty() && result.gains_at_bound.empty());
-    const Verification verification = verify(problem, result.law, goals);
+    EXPECT_LE(result.worst_constraint, 1.0 + 1e-9);
+    EXPECT_FALSE(result.active_constraints.empty() && result.gains_at_bound.empty());
+    const Verification verification = verify(problem, result.controller, goals);
     EXPECT_TRUE(verification.passed);
     for (const auto& peak : verification.peaks) EXPECT_LE(peak.upper, 2.0 * (1.0 + 1e-6));
     EXPECT_LE(std::sqrt(result.evaluation.effort_variance), 0.6 * (1.0 + 1e-9));
     EXPECT_LT(verification.rms_disagreement, 5e-3);
-    for (std::size_t k = 0; k < result.law.gains.size(); ++k) {
+    for (std::size_t k = 0; k < result.controller.gains.size(); ++k) {
       const auto& description = control::gain_descriptions(structure)[k];
-      EXPECT_GE(result.law.gains[k], description.lower * (1.0 - 1e-12));
-      EXPECT_LE(result.law.gains[k], description.upper * (1.0 + 1e-12));
+      EXPECT_GE(result.controller.gains[k], description.lower * (1.0 - 1e-12));
+      EXPECT_LE(result.controller.gains[k], description.upper * (1.0 + 1e-12));
     }
   }
 }
@@ -69,7 +69,7 @@ TEST(Tune, PassesItsVerificationInEveryWind) {
       problem.wind.model = model;
       problem.wind.mean_speed = speed;
       const auto result = tune(problem, LoopStructure::pi_with_lag(), {}, quick());
-      const auto verification = verify(problem, result.law, {});
+      const auto verification = verify(problem, result.controller, {});
       EXPECT_TRUE(verification.passed)
           << to_string(model) << " " << speed << " m/s: " << verification.rms_disagreement;
     }
@@ -82,7 +82,7 @@ TEST(Tune, FindsTheSameRmsFromMostSeeds) {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     const auto result = tune(problem, LoopStructure::pi_with_lag(), {}, quick(seed));
     if (result.status == TuningStatus::optimal) {
-      rms.push_back(std::sqrt(result.evaluation.beam_variance()));
+      rms.push_back(std::sqrt(result.evaluation.boresight_variance()));
     }
   }
   ASSERT_GE(rms.size(), 5u);
@@ -95,26 +95,26 @@ TEST(Tune, WithTheLagIsNoWorseThanWithout) {
   const TrackingProblem problem = reference::tracking_problem();
   const auto without = tune(problem, LoopStructure::pi(), {}, quick());
   const auto with = tune(problem, LoopStructure::pi_with_lag(), {}, quick());
-  EXPECT_LT(with.evaluation.beam_variance(), 1.01 * without.evaluation.beam_variance());
+  EXPECT_LT(with.evaluation.boresight_variance(), 1.01 * without.evaluation.boresight_variance());
 }
 
 TEST(Tune, EndsAtALocalOptimum) {
   const TrackingProblem problem = reference::tracking_problem();
-  const HardGoals goals;
+  const Constraints goals;
   const auto result = tune(problem, LoopStructure::pi_with_lag(), goals, quick());
   auto evaluator = make_evaluator(problem);
-  const double best = evaluator.evaluate(result.law, false).beam_variance();
-  for (std::size_t k = 0; k < result.law.gains.size(); ++k) {
+  const double best = evaluator.evaluate(result.controller, false).boresight_variance();
+  for (std::size_t k = 0; k < result.controller.gains.size(); ++k) {
     for (const double factor : {0.99, 1.01}) {
-      const auto& description = control::gain_descriptions(result.law.structure)[k];
-      control::ControlLaw changed = result.law;
+      const auto& description = control::gain_descriptions(result.controller.structure)[k];
+      control::Controller changed = result.controller;
       changed.gains[k] *= factor;
       if (changed.gains[k] < description.lower || changed.gains[k] > description.upper) continue;
       const auto evaluation = evaluator.evaluate(changed, false);
-      const bool worse = evaluation.beam_variance() >= best * (1.0 - 1e-6);
-      EXPECT_TRUE(worse || worst_goal_ratio(evaluation, goals) > 1.0)
+      const bool worse = evaluation.boresight_variance() >= best * (1.0 - 1e-6);
+      EXPECT_TRUE(worse || worst_constraint(evaluation, goals) > 1.0)
           << description.name << " times " << factor << ": rms " << std::sqrt(best) << " -> "
-          << std::sqrt(evaluation.beam_variance());
+          << std::sqrt(evaluation.boresight_variance());
     }
   }
 }
@@ -149,11 +149,11 @@ TrackingProblem faster_and_stronger(TrackingProblem problem, double faster, doub
   return problem;
 }
 
-TEST(Tune, FindsTheSameLawInOtherUnitsOfTimeAndTorque) {
+TEST(Tune, FindsTheSameControllerInOtherUnitsOfTimeAndTorque) {
   constexpr double faster = 10.0, stronger = 10.0;
   const TrackingProblem problem = coarse_problem();
-  HardGoals goals;
-  goals.valve_effort *= faster;
+  Constraints goals;
+  goals.control_effort *= faster;
   const auto usual = LoopStructure::named("DPF+C");
   const auto moved = usual.with_bounds_for({2.0 * faster, 0.4 * stronger / (faster * faster)});
   const auto slow = tune(problem, usual, {}, coarse());
@@ -163,7 +163,7 @@ TEST(Tune, FindsTheSameLawInOtherUnitsOfTimeAndTorque) {
   EXPECT_EQ(fast.gains_at_bound, slow.gains_at_bound);
   for (std::size_t k = 0; k < moved.gains().size(); ++k) {
     const double factor = moved.gains()[k].upper / usual.gains()[k].upper;
-    EXPECT_NEAR(fast.law.gains[k] / slow.law.gains[k] / factor, 1.0, 0.02)
+    EXPECT_NEAR(fast.controller.gains[k] / slow.controller.gains[k] / factor, 1.0, 0.02)
         << usual.gains()[k].symbol;
   }
 }
@@ -174,29 +174,29 @@ TEST(Tune, GainsNothingByLessWind) {
   calm.wind.mean_speed = 7.0;
   const auto windy = tune(coarse_problem(), LoopStructure::pi(), {}, coarse());
   const auto less = tune(calm, LoopStructure::pi(), {}, coarse());
-  EXPECT_LT(less.evaluation.beam_variance(), windy.evaluation.beam_variance());
+  EXPECT_LT(less.evaluation.boresight_variance(), windy.evaluation.boresight_variance());
 }
 
 TEST(Tune, SaysWhenGoalsAreOutOfReach) {
   for (const auto& goals :
-       {HardGoals{{1.001, 1.001, 1.001}, 0.6}, HardGoals{{2.0, 2.0, 2.0}, 1e-6}}) {
+       {Constraints{{1.001, 1.001, 1.001}, 0.6}, Constraints{{2.0, 2.0, 2.0}, 1e-6}}) {
     const auto result = tune(coarse_problem(), LoopStructure::pi_with_lag(), goals, coarse());
     EXPECT_EQ(result.status, TuningStatus::infeasible);
-    EXPECT_GT(result.worst_goal_ratio, 1.0);
+    EXPECT_GT(result.worst_constraint, 1.0);
     EXPECT_TRUE(result.evaluation.stable());
-    EXPECT_EQ(result.law.gains.size(), 5u);
+    EXPECT_EQ(result.controller.gains.size(), 5u);
   }
 }
 
-TEST(Tune, NeverCallsALawOptimalThatBreaksAGoal) {
+TEST(Tune, NeverCallsAControllerOptimalThatBreaksAGoal) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     for (const double peak : {1.2, 1.35, 1.5, 1.7}) {
-      const HardGoals goals{{peak, peak, peak}, 0.6};
+      const Constraints goals{{peak, peak, peak}, 0.6};
       const auto result = tune(coarse_problem(), LoopStructure::pi(), goals, coarse(seed));
       auto evaluator = make_evaluator(coarse_problem());
-      const double ratio = worst_goal_ratio(evaluator.evaluate(result.law, false), goals);
+      const double ratio = worst_constraint(evaluator.evaluate(result.controller, false), goals);
       EXPECT_EQ(result.status == TuningStatus::optimal, ratio <= 1.0 + 1e-9) << peak;
-      EXPECT_NEAR(ratio, result.worst_goal_ratio, 1e-6);
+      EXPECT_NEAR(ratio, result.worst_constraint, 1e-6);
     }
   }
 }
@@ -204,22 +204,22 @@ TEST(Tune, NeverCallsALawOptimalThatBreaksAGoal) {
 TEST(Tune, GivesTheSameBytesForTheSameSeed) {
   const auto once = tune(coarse_problem(), LoopStructure::pi_with_lag(), {}, coarse(3));
   const auto again = tune(coarse_problem(), LoopStructure::pi_with_lag(), {}, coarse(3));
-  EXPECT_EQ(once.law.gains, again.law.gains);
+  EXPECT_EQ(once.controller.gains, again.controller.gains);
   EXPECT_EQ(once.evaluation.wind_variance, again.evaluation.wind_variance);
   EXPECT_EQ(once.evaluations, again.evaluations);
-  EXPECT_EQ(once.active_goals, again.active_goals);
+  EXPECT_EQ(once.active_constraints, again.active_constraints);
 }
 
 // As docs/case-file.md has it of [goals].
 TEST(Tune, LimitsTheOvershootByThePhaseMargin) {
   const TrackingProblem problem = coarse_problem();
-  const auto overshoot = [&](const char* structure, const HardGoals& goals) {
+  const auto overshoot = [&](const char* structure, const Constraints& goals) {
     const auto tuned = tune(problem, LoopStructure::named(structure), goals, coarse());
-    return control::step_characteristics(reference::command_to_encoder(problem, tuned.law))
+    return control::step_characteristics(reference::command_to_encoder(problem, tuned.controller))
         .overshoot;
   };
   const auto at_margin = [&](const char* structure, double degrees) {
-    HardGoals goals;
+    Constraints goals;
     goals.phase_margin.fill(degrees * std::numbers::pi / 180.0);
     return overshoot(structure, goals);
   };
@@ -229,7 +229,7 @@ TEST(Tune, LimitsTheOvershootByThePhaseMargin) {
   EXPECT_NEAR(at_margin("DPF", 60.0), 0.20, 0.045);
   EXPECT_LT(at_margin("PI", 75.0), 0.05);
   EXPECT_LT(at_margin("DPF", 75.0), 0.05);
-  HardGoals low_peak;
+  Constraints low_peak;
   low_peak.sensitivity_peak.fill(1.2);
   EXPECT_NEAR(overshoot("PI", low_peak), 0.25, 0.02);
   EXPECT_NEAR(overshoot("DPF", low_peak), 0.21, 0.02);
@@ -241,14 +241,14 @@ TEST(Evaluation, OfExtremeGainsIsANumber) {
     const auto& descriptions = control::gain_descriptions(structure);
     // Every corner of the bounds.
     for (unsigned corner = 0; corner < (1u << descriptions.size()); ++corner) {
-      control::ControlLaw law{structure, {}};
+      control::Controller controller{structure, {}};
       for (std::size_t k = 0; k < descriptions.size(); ++k) {
-        law.gains.push_back((corner >> k & 1u) != 0 ? descriptions[k].upper
-                                                    : descriptions[k].lower);
+        controller.gains.push_back((corner >> k & 1u) != 0 ? descriptions[k].upper
+                                                           : descriptions[k].lower);
       }
-      const auto evaluation = evaluator.evaluate(law, true);
-      EXPECT_TRUE(std::isfinite(evaluation.beam_variance()));
-      EXPECT_GT(evaluation.beam_variance(), 0.0);
+      const auto evaluation = evaluator.evaluate(controller, true);
+      EXPECT_TRUE(std::isfinite(evaluation.boresight_variance()));
+      EXPECT_GT(evaluation.boresight_variance(), 0.0);
       EXPECT_TRUE(std::isfinite(evaluation.effort_variance));
       for (std::size_t k = 0; k < descriptions.size(); ++k) {
         EXPECT_TRUE(std::isfinite(evaluation.wind_log_gradient[k]));
@@ -264,18 +264,18 @@ TEST(Evaluation, OfExtremeGainsIsANumber) {
   }
 }
 
-TEST(WorstGoalRatio, IsTheLargestQuantityOverItsLimit) {
+TEST(WorstConstraint, IsTheLargestQuantityOverItsLimit) {
   control::LoopEvaluation evaluation;
   evaluation.effort_variance = 0.09;
   evaluation.peaks[0].push_back({1.0, 1.5, {}});
   evaluation.peaks[2].push_back({1.0, 1.8, {}});
   evaluation.peaks[2].push_back({2.0, 1.2, {}});
-  EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 2.0, 2.0}, 0.6}), 0.9);
-  EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{1.2, 2.0, 2.0}, 0.6}), 1.25);
-  EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 2.0, 2.0}, 0.1}), 3.0);
-  EXPECT_DOUBLE_EQ(worst_goal_ratio(evaluation, {{2.0, 0.5, 2.0}, 0.6}), 2.0);  // |S| reaches 1
+  EXPECT_DOUBLE_EQ(worst_constraint(evaluation, {{2.0, 2.0, 2.0}, 0.6}), 0.9);
+  EXPECT_DOUBLE_EQ(worst_constraint(evaluation, {{1.2, 2.0, 2.0}, 0.6}), 1.25);
+  EXPECT_DOUBLE_EQ(worst_constraint(evaluation, {{2.0, 2.0, 2.0}, 0.1}), 3.0);
+  EXPECT_DOUBLE_EQ(worst_constraint(evaluation, {{2.0, 0.5, 2.0}, 0.6}), 2.0);  // |S| reaches 1
   evaluation.unstable_rate_loop = 1;
-  EXPECT_TRUE(std::isinf(worst_goal_ratio(evaluation, {})));
+  EXPECT_TRUE(std::isinf(worst_constraint(evaluation, {})));
 }
 
 TEST(Tune, RefusesOptionsBelowOne) {

@@ -30,11 +30,11 @@ SimulatedLoop reference_loop() {
 }
 
 // Tracking at 4.2 mdeg/s in wind of 10 m/s.
-LoopCourse windy_course(const SimulatedLoop& loop, double duration) {
+ReferenceTrajectory windy_course(const SimulatedLoop& loop, double duration) {
   const auto wind = plant::synthesise_wind_torque(
       reference::wind_site(), plant::WindModel::coherence, 10.0, duration, loop.sample_time, 1);
   const double rate = 4.2 * mdeg * loop.gear_ratio;
-  LoopCourse course;
+  ReferenceTrajectory course;
   course.interval = loop.sample_time;
   course.wind_torque = (wind.uniform + wind.gradient) / loop.gear_ratio;
   const Index steps = course.wind_torque.size();
@@ -56,9 +56,9 @@ TEST(IntegratorAgreement, CvodesFollowsTheClosedFormOfTheLinearLoop) {
   const auto loop = reference_loop();
   const auto course = windy_course(loop, 20.0);
   LoopRunOptions options;
-  const VectorXd exact = run_linear_loop(loop, course, 1, options).beam_error;
+  const VectorXd exact = run_linear_loop(loop, course, 1, options).boresight_error;
   options.integrator = plant::Integrator::cvodes;
-  const VectorXd found = run_linear_loop(loop, course, 1, options).beam_error;
+  const VectorXd found = run_linear_loop(loop, course, 1, options).boresight_error;
   EXPECT_LT((found - exact).norm(), 1e-4 * exact.norm());
   EXPECT_NE(found, exact) << "the same integrator twice";
 }
@@ -129,7 +129,7 @@ TEST(IntegratorAgreement, RunsWithoutAUsableEndAreStatedResults) {
   EXPECT_TRUE(std::isnan(failed.ratio()));
   EXPECT_FALSE(agree(failed));
   // Nothing to compare where the first run is lost already.
-  loop.law.gains[4] = 5.0;  // the position integral: unstable
+  loop.controller.gains[4] = 5.0;  // the position integral: unstable
   const auto lost = integrator_agreement(loop, windy_course(loop, 60.0), settling_for(1.0));
   EXPECT_EQ(lost.status, RunStatus::lost);
   EXPECT_EQ(lost.cvodes_steps, 0);

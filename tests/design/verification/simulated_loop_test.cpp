@@ -5,7 +5,7 @@
 
 #include "design/reference_problem.hpp"
 #include "reference_nonlinear_antenna.hpp"
-#include <boresight/control/controllers/sampled_law.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
@@ -20,22 +20,22 @@ using testing::HasSubstr;
 
 const std::vector<Influence> everything(std::begin(influences), std::end(influences));
 
-control::ControlLaw tuned_law() {
+control::Controller tuned_controller() {
   return {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}};
 }
 
-control::ControlLaw pressure_law() {
+control::Controller pressure_controller() {
   return {control::LoopStructure::pressure_feedback(),
           {0.1587, 0.42067, 2.6279, 0.01, 3.0, 8.0, 0.2}};
 }
 
-SimulatedLoop reference_loop(const control::ControlLaw& law = tuned_law()) {
+SimulatedLoop reference_loop(const control::Controller& controller = tuned_controller()) {
   auto details = reference::drive_details();
   details.line_lengths.clear();
   details.preload_torque = 20.0;
   details.backlash = 0.1;
   auto loop = make_simulated_loop(reference::tracking_problem(),
-                                  reference::nonlinear_antenna(details), law);
+                                  reference::nonlinear_antenna(details), controller);
   loop.encoder_resolution = 0.34 * mdeg * loop.gear_ratio;
   return loop;
 }
@@ -45,12 +45,13 @@ double rms(const VectorXd& values) {
 }
 
 // Wind about its mean on a loop that stands still or moves steadily.
-LoopCourse windy_course(const SimulatedLoop& loop, double duration, double rate, double share) {
+ReferenceTrajectory windy_course(const SimulatedLoop& loop, double duration, double rate,
+                                 double fraction) {
   const auto wind = plant::synthesise_wind_torque(
       reference::wind_site(), plant::WindModel::coherence, 10.0, duration, loop.sample_time, 1);
-  LoopCourse course;
+  ReferenceTrajectory course;
   course.interval = loop.sample_time;
-  course.wind_torque = share * (wind.uniform + wind.gradient) / loop.gear_ratio;
+  course.wind_torque = fraction * (wind.uniform + wind.gradient) / loop.gear_ratio;
   const Index samples = course.wind_torque.size();
   course.reference =
       VectorXd::LinSpaced(samples, 0.0, rate * loop.sample_time * static_cast<double>(samples - 1));
@@ -60,8 +61,8 @@ LoopCourse windy_course(const SimulatedLoop& loop, double duration, double rate,
 }
 
 TEST(SimulatedLoop, WithEverythingOffItIsTheLinearLoopSampleForSample) {
-  for (const auto& law : {tuned_law(), pressure_law()}) {
-    const auto loop = reference_loop(law);
+  for (const auto& controller : {tuned_controller(), pressure_controller()}) {
+    const auto loop = reference_loop(controller);
     const auto course = windy_course(loop, 60.0, 2.0, 1.0);
     LoopRunOptions options;
     options.without = everything;
@@ -70,18 +71,18 @@ TEST(SimulatedLoop, WithEverythingOffItIsTheLinearLoopSampleForSample) {
     ASSERT_EQ(nonlinear.status, RunStatus::complete) << nonlinear.message;
     ASSERT_EQ(linear.status, RunStatus::complete) << linear.message;
     // The start's command under way has died out, the law's constants do not matter.
-    const Index settled = 1000, rest = linear.beam_error.size() - settled;
-    const VectorXd expected = linear.beam_error.tail(rest);
-    const VectorXd found = nonlinear.beam_error.tail(rest);
+    const Index settled = 1000, rest = linear.boresight_error.size() - settled;
+    const VectorXd expected = linear.boresight_error.tail(rest);
+    const VectorXd found = nonlinear.boresight_error.tail(rest);
     const VectorXd difference =
         (found.array() - found.mean()) - (expected.array() - expected.mean());
-    EXPECT_LT(rms(difference), 2e-3 * rms(expected)) << law.structure.name();
+    EXPECT_LT(rms(difference), 2e-3 * rms(expected)) << controller.structure.name();
     EXPECT_GT(rms(expected), 0.3 * mdeg);
     // Noise is in both: without, they are others.
     LoopRunOptions quiet;
     quiet.noise = false;
     const LoopRun silent = run_linear_loop(loop, course, 1, quiet);
-    EXPECT_GT(rms(silent.beam_error - linear.beam_error), 0.005 * mdeg);
+    EXPECT_GT(rms(silent.boresight_error - linear.boresight_error), 0.005 * mdeg);
   }
 }
 
@@ -90,19 +91,19 @@ TEST(SimulatedLoop, SmallMotionOverTheOrificeIsLinearToo) {
   LoopRunOptions options;
   options.noise = false;
   options.without = {Influence::friction, Influence::quantisation};
-  const auto difference = [&](double share) {
-    const auto course = windy_course(loop, 40.0, 0.0, share);
+  const auto difference = [&](double fraction) {
+    const auto course = windy_course(loop, 40.0, 0.0, fraction);
     const LoopRun nonlinear = run_loop(loop, course, options);
     const LoopRun linear = run_linear_loop(loop, course, 1, options);
-    return rms((nonlinear.beam_error - linear.beam_error).tail(1000)) /
-           rms(linear.beam_error.tail(1000));
+    return rms((nonlinear.boresight_error - linear.boresight_error).tail(1000)) /
+           rms(linear.boresight_error.tail(1000));
   };
   EXPECT_LT(difference(0.01), 3e-3);
   EXPECT_GT(difference(1.0), 3.0 * difference(0.01)) << "the orifice is not in it";
 }
 
 TEST(SimulatedLoop, NoiseIsThatOfTheExactCovariance) {
-  auto loop = reference_loop(pressure_law());
+  auto loop = reference_loop(pressure_controller());
   loop.noise = {0.5 * mdeg * loop.gear_ratio, 0.1, 25.0, 0.5};
   const double duration = 400.0;
   auto course = windy_course(loop, duration, 0.0, 0.0);
@@ -113,10 +114,10 @@ TEST(SimulatedLoop, NoiseIsThatOfTheExactCovariance) {
                                 {"tachometer", std::pow(loop.noise.tachometer_rms, 2)},
                                 {"motor_torque", std::pow(loop.noise.torque_rms, 2)}};
   const auto exact = control::sampled_loop_rms(
-      control::sampled_loop(plant::to_state_space(loop.linear), loop.law, loop.sample_time), noise,
-      {"beam"});
+      control::sampled_loop(plant::to_state_space(loop.linear), loop.controller, loop.sample_time),
+      noise, {"beam"});
   // 400 s of a signal some 1 Hz wide: 4 % of scatter.
-  EXPECT_NEAR(rms(run.beam_error) * loop.gear_ratio / exact.at_samples[0], 1.0, 0.12);
+  EXPECT_NEAR(rms(run.boresight_error) * loop.gear_ratio / exact.at_samples[0], 1.0, 0.12);
 }
 
 TEST(SimulatedLoop, FinerSamplingTendsToTheContinuousLoop) {
@@ -125,7 +126,7 @@ TEST(SimulatedLoop, FinerSamplingTendsToTheContinuousLoop) {
   LoopRunOptions options;
   options.noise = false;
   const auto error = [&](int finer) {
-    return run_linear_loop(loop, course, finer, options).beam_error;
+    return run_linear_loop(loop, course, finer, options).boresight_error;
   };
   const VectorXd limit = error(64);
   const double coarse = rms(error(4) - limit), fine = rms(error(8) - limit);
@@ -135,8 +136,8 @@ TEST(SimulatedLoop, FinerSamplingTendsToTheContinuousLoop) {
 
 // A ramp from rest under a position loop with next to no integral action.
 TEST(SimulatedLoop, FeedforwardTakesAwayTheErrorOfARamp) {
-  control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 1e-4}};
-  auto loop = reference_loop(law);
+  control::Controller controller{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 1e-4}};
+  auto loop = reference_loop(controller);
   const double rate = 2.0;  // rad/s of motor
   const auto course = shaped_course({100.0, 50.0}, loop.sample_time, 4000, 1, [&](double t) {
     return control::CommandSample{rate * t, t > 0.0 ? rate : 0.0, 0.0};
@@ -182,7 +183,7 @@ TEST(SimulatedLoop, AntiWindupBoundsTheOvershootAfterSaturation) {
                      Influence::gear};
   // A step that nothing shapes.
   const double step = 200.0;
-  LoopCourse course = windy_course(loop, 80.0, 0.0, 0.0);
+  ReferenceTrajectory course = windy_course(loop, 80.0, 0.0, 0.0);
   course.reference.tail(course.reference.size() - 50).setConstant(step);
   const auto overshoot = [&](bool anti_windup) {
     loop.anti_windup = anti_windup;
@@ -194,11 +195,11 @@ TEST(SimulatedLoop, AntiWindupBoundsTheOvershootAfterSaturation) {
 }
 
 TEST(SimulatedLoop, StartsInTheMotionItIsToHold) {
-  auto bending_law = pressure_law();
+  auto bending_law = pressure_controller();
   bending_law.structure = bending_law.structure.with_compliance_compensation();
   bending_law.gains.insert(bending_law.gains.end(), {1e-3, 1.0});
-  for (const auto& law : {tuned_law(), pressure_law(), bending_law}) {
-    const auto loop = reference_loop(law);
+  for (const auto& controller : {tuned_controller(), pressure_controller(), bending_law}) {
+    const auto loop = reference_loop(controller);
     const auto course = windy_course(loop, 20.0, 2.0, 0.0);
     LoopRunOptions options;
     options.noise = false;
@@ -208,12 +209,12 @@ TEST(SimulatedLoop, StartsInTheMotionItIsToHold) {
     // The command of some 4 rad/s is missing for the first sample time, and no more than that.
     const VectorXd moved = run.encoder_error.array() - run.encoder_error[0];
     EXPECT_LT(moved.cwiseAbs().maxCoeff() * loop.gear_ratio, 3.0 * 4.0 * loop.sample_time)
-        << law.structure.name();
-    EXPECT_LT(std::abs(moved.tail(1)[0]), 0.02 * mdeg) << law.structure.name();
+        << controller.structure.name();
+    EXPECT_LT(std::abs(moved.tail(1)[0]), 0.02 * mdeg) << controller.structure.name();
     // Compliance compensation holds the encoder ahead by what the torque bends.
     const double torque = plant::column(run.result, "motor_torque")[0];
     EXPECT_NEAR(run.encoder_error[0] * loop.gear_ratio,
-                law.structure == bending_law.structure ? 1e-3 * torque : 0.0, 1e-9);
+                controller.structure == bending_law.structure ? 1e-3 * torque : 0.0, 1e-9);
   }
 }
 

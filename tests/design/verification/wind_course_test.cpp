@@ -21,7 +21,7 @@ TEST(WindCourses, AreTheSynthesisedTorqueOfTheirSeedWithTheMean) {
         {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
     constexpr double rate = 2.0, duration = 20.0;
     const WindCourses courses(problem, loop, rate, duration);
-    const LoopCourse course = courses.course(7);
+    const ReferenceTrajectory course = courses.course(7);
     ASSERT_EQ(course.wind_torque.size(), courses.samples());
     EXPECT_NEAR(static_cast<double>(courses.samples() - 1) * course.interval, duration, 1e-9);
     const auto& wind = problem.wind;
@@ -41,7 +41,7 @@ TEST(WindCourses, AreTheSynthesisedTorqueOfTheirSeedWithTheMean) {
 }
 
 TEST(SteadyCourse, MovesAtItsRate) {
-  const LoopCourse course = steady_course(0.5, 3.0, VectorXd::LinSpaced(5, 0.0, 1.0));
+  const ReferenceTrajectory course = steady_course(0.5, 3.0, VectorXd::LinSpaced(5, 0.0, 1.0));
   EXPECT_EQ(course.reference, VectorXd::LinSpaced(5, 0.0, 6.0));
   EXPECT_EQ(course.reference_rate, VectorXd::Constant(5, 3.0));
   EXPECT_EQ(course.reference_acceleration, VectorXd::Zero(5));

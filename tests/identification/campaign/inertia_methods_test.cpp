@@ -168,14 +168,14 @@ TEST(IdentifyInertia, IsTheSameWithEverySeedToItsSamplingError) {
   EXPECT_NEAR(once.lower, other.lower, 0.05 * once.standard_uncertainty);
 }
 
-TEST(Reconcile, OfEqualUncertaintiesIsTheMeanWithTheScatterOfTheMethods) {
+TEST(Combine, OfEqualUncertaintiesIsTheMeanWithTheScatterOfTheMethods) {
   // Equal variances v: the mean, Q = sum d^2/v, between = s^2 - v, standard error s/sqrt(n).
   const std::vector<numerics::Uncertain> estimates{{1.776, 0.03}, {1.416, 0.03}, {1.559, 0.03}};
   const double mean = (1.776 + 1.416 + 1.559) / 3.0;
   double squares = 0.0;
   for (const auto& e : estimates) squares += std::pow(e.value - mean, 2);
   const double scatter = squares / 2.0;
-  const auto result = reconcile(estimates, 1.2028);
+  const auto result = combine(estimates, 1.2028);
   EXPECT_NEAR(result.value, mean, 1e-12);
   EXPECT_NEAR(result.heterogeneity, squares / 9e-4, 1e-9);
   EXPECT_EQ(result.degrees_of_freedom, 2);
@@ -188,48 +188,48 @@ TEST(Reconcile, OfEqualUncertaintiesIsTheMeanWithTheScatterOfTheMethods) {
   EXPECT_NEAR(result.motor_to_load_ratio, 1.2028 / (mean - 1.2028), 1e-12);
 }
 
-TEST(Reconcile, OfMethodsThatAgreeIsTheInverseVarianceMean) {
-  const auto result = reconcile({{1.0, 0.1}, {1.05, 0.2}}, 0.5);
+TEST(Combine, OfMethodsThatAgreeIsTheInverseVarianceMean) {
+  const auto result = combine({{1.0, 0.1}, {1.05, 0.2}}, 0.5);
   EXPECT_EQ(result.between_methods, 0.0);
   EXPECT_NEAR(result.value, (100.0 * 1.0 + 25.0 * 1.05) / 125.0, 1e-12);
   EXPECT_NEAR(result.standard_uncertainty, 1.0 / std::sqrt(125.0), 1e-12);
   EXPECT_LT(result.heterogeneity, 1.0);
 }
 
-TEST(Reconcile, IsContradictoryBeyondChanceOnly) {
+TEST(Combine, IsContradictoryBeyondChanceOnly) {
   // Cochran's Q is half the square of the difference in standard uncertainties: 8 and 18, where
   // chance exceeds 10.8 on one degree of freedom once in a thousand times.
-  EXPECT_FALSE(reconcile({{1.0, 0.1}, {1.4, 0.1}}, 0.5).contradictory());
-  EXPECT_TRUE(reconcile({{1.0, 0.1}, {1.6, 0.1}}, 0.5).contradictory());
+  EXPECT_FALSE(combine({{1.0, 0.1}, {1.4, 0.1}}, 0.5).contradictory());
+  EXPECT_TRUE(combine({{1.0, 0.1}, {1.6, 0.1}}, 0.5).contradictory());
 }
 
-TEST(Reconcile, FollowsUnitsAndOrder) {
+TEST(Combine, FollowsUnitsAndOrder) {
   const std::vector<numerics::Uncertain> one{{1.7, 0.05}, {1.4, 0.03}, {1.5, 0.08}};
   const std::vector<numerics::Uncertain> other{{15.0, 0.8}, {17.0, 0.5}, {14.0, 0.3}};
-  const auto a = reconcile(one, 1.2), b = reconcile(other, 12.0);
+  const auto a = combine(one, 1.2), b = combine(other, 12.0);
   EXPECT_NEAR(10.0 * a.value, b.value, 1e-12);
   EXPECT_NEAR(10.0 * a.between_methods, b.between_methods, 1e-12);
   EXPECT_NEAR(a.motor_to_load_ratio, b.motor_to_load_ratio, 1e-12);
   EXPECT_NEAR(a.heterogeneity, b.heterogeneity, 1e-9);
 }
 
-TEST(Reconcile, LeavesTheRatioOpenWhereTheIntervalReachesTheMotors) {
-  const auto result = reconcile({{1.3, 0.05}, {1.5, 0.05}}, 1.2028);
+TEST(Combine, LeavesTheRatioOpenWhereTheIntervalReachesTheMotors) {
+  const auto result = combine({{1.3, 0.05}, {1.5, 0.05}}, 1.2028);
   EXPECT_LT(result.lower, 1.2028);
   EXPECT_EQ(result.ratio_upper, std::numeric_limits<double>::infinity());
   EXPECT_NEAR(result.ratio_lower, 1.2028 / (result.upper - 1.2028), 1e-12);
 }
 
-TEST(Reconcile, RefusesOneEstimateOrOneWithoutUncertainty) {
+TEST(Combine, RefusesOneEstimateOrOneWithoutUncertainty) {
   EXPECT_THAT(reference::Call([] {
-                reconcile({{1.0, 0.1}}, 1.2);
+                combine({{1.0, 0.1}}, 1.2);
               }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least 2 estimates, found 1")));
   EXPECT_THAT(reference::Call([] {
-                reconcile({{1.0, 0.1}, {1.0, 0.0}}, 1.2);
+                combine({{1.0, 0.1}, {1.0, 0.0}}, 1.2);
               }),
               ThrowsMessage<InvalidInput>(HasSubstr("positive uncertainties")));
-  EXPECT_THROW(reconcile({{1.0, 0.1}, {1.0, std::nan("")}}, 1.2), InvalidInput);
+  EXPECT_THROW(combine({{1.0, 0.1}, {1.0, std::nan("")}}, 1.2), InvalidInput);
 }
 
 TEST(TachometerScale, IsThatOfEq32) {

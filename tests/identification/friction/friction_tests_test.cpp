@@ -132,11 +132,11 @@ TEST(ConstantSpeedTests, RefusesACampaignWithoutThem) {
               }),
               ThrowsMessage<NumericalFailure>(HasSubstr("record a bipolar square wave")));
   FrictionTestOptions options;
-  options.settled_share = 0.0;
+  options.settled_fraction = 0.0;
   EXPECT_THAT(reference::Call([&] {
                 constant_speed_tests(campaign, {1.8, 0.1}, options);
               }),
-              ThrowsMessage<InvalidInput>(HasSubstr("positive settled share")));
+              ThrowsMessage<InvalidInput>(HasSubstr("positive settled fraction")));
 }
 
 TEST(SlowRampTests, FindTheTorqueAtBreakaway) {
@@ -162,9 +162,9 @@ TEST(SlowRampTests, RefusesARampThatNeverRests) {
   EXPECT_THAT(reference::Call([&] { slow_ramp_tests(campaign); }),
               ThrowsMessage<NumericalFailure>(HasSubstr("found 0 up and 0 down")));
   FrictionTestOptions options;
-  options.rest_share = 1.0;
+  options.rest_fraction = 1.0;
   EXPECT_THAT(reference::Call([&] { slow_ramp_tests(campaign, options); }),
-              ThrowsMessage<InvalidInput>(HasSubstr("rest share between 0 and 1")));
+              ThrowsMessage<InvalidInput>(HasSubstr("rest fraction between 0 and 1")));
 }
 
 }  // namespace

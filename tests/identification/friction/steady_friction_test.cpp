@@ -101,22 +101,22 @@ TEST(SteadyFrictionIntervals, HoldTheTruthBehindARoundedTorque) {
   ASSERT_TRUE(intervals.stribeck_rate);
   const FrictionInterval& rate = *intervals.stribeck_rate;
   const double line = 30.0 + 0.25 * 9.0;
-  EXPECT_NEAR(rate.least, rate_of(rounded - 0.05 - line), 1e-3);
+  EXPECT_NEAR(rate.minimum, rate_of(rounded - 0.05 - line), 1e-3);
   EXPECT_NEAR(rate.largest, rate_of(rounded + 0.05 - line), 1e-3);
-  EXPECT_FALSE(rate.least_open || rate.largest_open);
+  EXPECT_FALSE(rate.min_open || rate.largest_open);
   EXPECT_EQ(rate.moved_most_by, 1U);
   EXPECT_GT(std::abs(fit_steady_friction(tests).curve.stribeck_rate - 6.0), 0.02);
-  EXPECT_LT(rate.least, 6.0);
+  EXPECT_LT(rate.minimum, 6.0);
   EXPECT_GT(rate.largest, 6.0);
   // That test tells nothing of the rest.
-  EXPECT_NEAR(intervals.breakaway_torque.least, 45.0, grid);
+  EXPECT_NEAR(intervals.breakaway_torque.minimum, 45.0, grid);
   EXPECT_NEAR(intervals.breakaway_torque.largest, 45.0, grid);
-  EXPECT_NEAR(intervals.coulomb_torque.least, 30.0, grid);
+  EXPECT_NEAR(intervals.coulomb_torque.minimum, 30.0, grid);
   EXPECT_NEAR(intervals.coulomb_torque.largest, 30.0, grid);
   // And without leeway nothing moves.
   const auto fixed = steady_friction_intervals(one_rounded(rounded, 0.0));
   ASSERT_TRUE(fixed.stribeck_rate);
-  EXPECT_EQ(fixed.stribeck_rate->least, fixed.stribeck_rate->largest);
+  EXPECT_EQ(fixed.stribeck_rate->minimum, fixed.stribeck_rate->largest);
   EXPECT_FALSE(fixed.stribeck_rate->moved_most_by);
 }
 
@@ -126,12 +126,12 @@ TEST(SteadyFrictionIntervals, MoveTheLineByTheTestsThatItGoesThrough) {
   tests[2].leeway = 0.1;
   const auto intervals = steady_friction_intervals(tests);
   // The line through 45 -+ 0.1 at 60 and 60 at 120 begins at 30 -+ 0.2.
-  EXPECT_NEAR(intervals.coulomb_torque.least, 29.8, grid);
+  EXPECT_NEAR(intervals.coulomb_torque.minimum, 29.8, grid);
   EXPECT_NEAR(intervals.coulomb_torque.largest, 30.2, grid);
   EXPECT_EQ(intervals.coulomb_torque.moved_most_by, 2U);
-  EXPECT_NEAR(intervals.viscous_friction.least, 0.25 - 0.1 / 60.0, grid);
+  EXPECT_NEAR(intervals.viscous_friction.minimum, 0.25 - 0.1 / 60.0, grid);
   EXPECT_NEAR(intervals.viscous_friction.largest, 0.25 + 0.1 / 60.0, grid);
-  EXPECT_NEAR(intervals.breakaway_torque.least, 44.5, grid);
+  EXPECT_NEAR(intervals.breakaway_torque.minimum, 44.5, grid);
   EXPECT_NEAR(intervals.breakaway_torque.largest, 45.5, grid);
   EXPECT_EQ(intervals.breakaway_torque.moved_most_by, 0U);
 }
@@ -140,21 +140,21 @@ TEST(SteadyFrictionIntervals, AreOpenWhereAFitRunsToTheEndOfItsSearch) {
   // 2 N m less at 9 rad/s is below the line through the others: no rate is low enough.
   const auto low = steady_friction_intervals(one_rounded(33.8, 2.0)).stribeck_rate;
   ASSERT_TRUE(low);
-  EXPECT_TRUE(low->least_open);
-  EXPECT_NEAR(low->least, 3.0, 1e-9);
+  EXPECT_TRUE(low->min_open);
+  EXPECT_NEAR(low->minimum, 3.0, 1e-9);
   EXPECT_FALSE(low->largest_open);
   // Also where no torque need be moved for it.
   const auto at_bound = steady_friction_intervals(one_rounded(31.0, 0.1)).stribeck_rate;
   ASSERT_TRUE(at_bound);
-  EXPECT_TRUE(at_bound->least_open);
-  EXPECT_EQ(at_bound->least, at_bound->largest);
+  EXPECT_TRUE(at_bound->min_open);
+  EXPECT_EQ(at_bound->minimum, at_bound->largest);
   // Without a hump at rest any rate will do: scattered tests, of which the first may show one.
   std::vector<SteadyFriction> scattered{
       {10.0, 30.0, 20.0}, {20.0, 30.0}, {30.0, 60.0}, {40.0, 40.0}};
   const auto any = steady_friction_intervals(scattered).stribeck_rate;
   ASSERT_TRUE(any);
-  EXPECT_TRUE(any->least_open && any->largest_open);
-  EXPECT_NEAR(any->least, 10.0 / 3.0, 1e-9);
+  EXPECT_TRUE(any->min_open && any->largest_open);
+  EXPECT_NEAR(any->minimum, 10.0 / 3.0, 1e-9);
   EXPECT_NEAR(any->largest, 40.0, 1e-9);
   EXPECT_FALSE(any->moved_most_by);
   scattered[0].leeway = 0.1;
@@ -173,7 +173,7 @@ TEST(SteadyFrictionIntervals, CountTheNumbersThatTestsAreAskedFor) {
 
 TEST(SteadyFrictionIntervals, KeepMovedTorquesAboveZero) {
   const auto intervals = steady_friction_intervals({{10.0, 1.0, 5.0}});
-  EXPECT_EQ(intervals.coulomb_torque.least, 0.0);
+  EXPECT_EQ(intervals.coulomb_torque.minimum, 0.0);
   EXPECT_NEAR(intervals.coulomb_torque.largest, 6.0, 1e-12);
   EXPECT_THROW(steady_friction_intervals({{10.0, 1.0, -1.0}}), InvalidInput);
   EXPECT_THROW(steady_friction_intervals({{10.0, 1.0, std::numeric_limits<double>::infinity()}}),

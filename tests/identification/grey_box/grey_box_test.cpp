@@ -10,9 +10,9 @@
 #include "refused_call.hpp"
 #include <boresight/identification/grey_box/grey_box.hpp>
 #include <boresight/identification/grey_box/grey_box_hold_out.hpp>
+#include <boresight/identification/grey_box/grey_box_information_gain.hpp>
 #include <boresight/identification/grey_box/grey_box_mechanics.hpp>
 #include <boresight/identification/grey_box/grey_box_search.hpp>
-#include <boresight/identification/grey_box/grey_box_test_gain.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::identification {
@@ -141,7 +141,7 @@ TEST(FitGreyBox, FindsTheDriveAndItsIntervalsHoldTheTruth) {
     EXPECT_TRUE(covers(found, expected)) << rate;
   }
   EXPECT_TRUE(result.quantity("leakage rate").identified);
-  EXPECT_EQ(result.draws.size(), 400u);
+  EXPECT_EQ(result.random_samples.size(), 400u);
   EXPECT_EQ(result.records.size(), 5u);
   EXPECT_TRUE(result.without_valve.empty());
   EXPECT_GT(result.rank, 10);
@@ -259,11 +259,11 @@ TEST(FitGreyBox, IntervalsHoldOverAFamilyOfDrives) {
 
 TEST(FitGreyBox, RefusesAndStopsAsAsked) {
   auto options = quick();
-  options.draws = 10;
+  options.random_samples = 10;
   EXPECT_THAT(reference::Call([&] { fit_grey_box(reference_campaign(), bulk, options); }),
-              ThrowsMessage<InvalidInput>(HasSubstr("at least 100 draws")));
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 100 samples")));
   options = quick();
-  options.progress = [](const std::string&, double share) { return share < 0.3; };
+  options.progress = [](const std::string&, double fraction) { return fraction < 0.3; };
   EXPECT_THAT(reference::Call([&] { fit_grey_box(reference_campaign(), bulk, options); }),
               ThrowsMessage<Interrupted>(HasSubstr("stopped as asked")));
   Campaign empty = reference_campaign();
@@ -306,15 +306,15 @@ TEST(RankTests, RanksByWhatATestWouldTeach) {
     ASSERT_EQ(gain.remaining.size(), drive_quantities().size());
     EXPECT_GE(gain.remaining[5], before);
     before = gain.remaining[5];
-    for (const double share : gain.remaining) {
-      EXPECT_GT(share, 0.0);
-      EXPECT_LE(share, 1.0 + 1e-9);
+    for (const double fraction : gain.remaining) {
+      EXPECT_GT(fraction, 0.0);
+      EXPECT_LE(fraction, 1.0 + 1e-9);
     }
   }
   // The slow test once more teaches less than the best new one.
-  const auto slowly = std::find_if(ranked.begin(), ranked.end(), [](const GreyBoxTestGain& g) {
-    return g.test == "constant speed, slow";
-  });
+  const auto slowly = std::find_if(
+      ranked.begin(), ranked.end(),
+      [](const GreyBoxInformationGain& g) { return g.test == "constant speed, slow"; });
   EXPECT_LT(ranked[0].remaining[5], 0.9);
   EXPECT_GT(slowly->remaining[5], ranked[0].remaining[5]);
   EXPECT_TRUE(slowly->done_before);

@@ -109,12 +109,13 @@ TEST(IdentifiedAntenna, HasEachFrequencyOfTheLockedRotorThatRecordsShow) {
 
 TEST(IdentifiedNumbers, HaveTheScatterOfTheDraws) {
   const plant::Antenna own = plant::demo_antenna();
-  std::vector<DriveEstimate> draws(2, estimate());
-  draws[0].leakage_rate = 0.57;
-  draws[1].leakage_rate = 0.63;
-  draws.push_back(estimate());
-  draws.back().inertia = draws.back().motor_inertia;  // no antenna left: counts for nothing
-  const auto numbers = identified_numbers(own, estimate(), draws);
+  std::vector<DriveEstimate> random_samples(2, estimate());
+  random_samples[0].leakage_rate = 0.57;
+  random_samples[1].leakage_rate = 0.63;
+  random_samples.push_back(estimate());
+  random_samples.back().inertia =
+      random_samples.back().motor_inertia;  // no antenna left: counts for nothing
+  const auto numbers = identified_numbers(own, estimate(), random_samples);
   const auto leakage = std::ranges::find(numbers, "drive.leakage_rate", &IdentifiedNumber::path);
   ASSERT_NE(leakage, numbers.end());
   EXPECT_EQ(leakage->value, 0.6);

@@ -18,7 +18,7 @@ using testing::ThrowsMessage;
 
 ImpulseMomentumOptions quick() {
   ImpulseMomentumOptions options;
-  options.draws = 100;
+  options.random_samples = 100;
   return options;
 }
 
@@ -94,7 +94,7 @@ TEST(ImpulseMomentum, RecoversTheInertiaOfARigidAntenna) {
               1.05 * estimate->inertia.standard_uncertainty)
         << estimate->name;
     double sum = 0.0;
-    for (const auto& share : estimate->shares) sum += share.share;
+    for (const auto& fraction : estimate->fractions) sum += fraction.fraction;
     EXPECT_NEAR(sum, 1.0, 1e-9) << estimate->name;
   }
   ASSERT_TRUE(result.best.has_value());
@@ -210,9 +210,9 @@ TEST(ImpulseMomentum, NamesWhatItCannotUse) {
               ThrowsMessage<InvalidInput>(HasSubstr("same 2 motors in every record")));
   campaign = PrescribedMotion{}.campaign();
   ImpulseMomentumOptions options;
-  options.draws = 10;
+  options.random_samples = 10;
   EXPECT_THAT(reference::Call([&] { impulse_momentum(campaign, options); }),
-              ThrowsMessage<InvalidInput>(HasSubstr("at least 20 draws")));
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 20 samples")));
   campaign.records = {PrescribedMotion{}.slow_ramp()};
   campaign.records[0].test = TestKind::other;
   EXPECT_THAT(reference::Call([&] { impulse_momentum(campaign); }),

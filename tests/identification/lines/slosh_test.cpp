@@ -38,13 +38,13 @@ struct Rig {
     const auto line = [&](std::size_t motor, double outlet, double t) {
       double sum = 0.0;
       for (std::size_t other = 0; other < motors; ++other) {
-        const double share = other == motor ? 1.0 : 0.1;
+        const double fraction = other == motor ? 1.0 : 0.1;
         const double f = std::sqrt(bulk_modulus / density) / (2.0 * lengths[other]);
         for (const double begin : events) {
           if (t < begin) continue;
           for (const double order : {1.0, 2.0}) {
             const double w = two_pi * f * order;
-            sum += share * 1.5e5 / order * outlet * std::exp(-0.006 * w * (t - begin)) *
+            sum += fraction * 1.5e5 / order * outlet * std::exp(-0.006 * w * (t - begin)) *
                    std::sin(w * (t - begin));
           }
         }

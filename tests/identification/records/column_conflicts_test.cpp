@@ -24,12 +24,12 @@ struct Records {
       if (i < edited) edit(raw.back());
     }
   }
-  ColumnConflicts judge() {
+  ColumnConflicts evaluate() {
     clean.clear();
     for (const RawRecord& one : raw) clean.push_back(clean_record(one));
-    std::vector<JudgedRecord> judged;
-    for (std::size_t i = 0; i < raw.size(); ++i) judged.push_back({&raw[i], &clean[i]});
-    return column_conflicts(judged);
+    std::vector<EvaluatedRecord> evaluated;
+    for (std::size_t i = 0; i < raw.size(); ++i) evaluated.push_back({&raw[i], &clean[i]});
+    return column_conflicts(evaluated);
   }
   std::vector<RawRecord> raw;
   std::vector<CleanRecord> clean;
@@ -60,7 +60,7 @@ void turn_command(RawRecord& raw) {
 void nothing(RawRecord&) {}
 
 TEST(ColumnConflicts, LeaveHealthyRecordsAlone) {
-  const auto conflicts = Records(3, 3, nothing).judge();
+  const auto conflicts = Records(3, 3, nothing).evaluate();
   EXPECT_EQ(conflicts.refusal, "");
   for (const auto& one : conflicts.records) {
     EXPECT_FALSE(one.again);
@@ -70,7 +70,7 @@ TEST(ColumnConflicts, LeaveHealthyRecordsAlone) {
 }
 
 TEST(ColumnConflicts, OfMostRecordsHoldForAll) {
-  const auto conflicts = Records(3, 2, exchange_third).judge();
+  const auto conflicts = Records(3, 2, exchange_third).evaluate();
   EXPECT_EQ(conflicts.refusal, "");
   for (const auto& one : conflicts.records) {
     EXPECT_TRUE(one.again);
@@ -79,17 +79,17 @@ TEST(ColumnConflicts, OfMostRecordsHoldForAll) {
 }
 
 TEST(ColumnConflicts, OfFewRecordsHoldForThose) {
-  const auto conflicts = Records(3, 1, exchange_third).judge();
+  const auto conflicts = Records(3, 1, exchange_third).evaluate();
   EXPECT_EQ(conflicts.records[0].options.exchanged_motors, std::vector<std::size_t>{2});
   EXPECT_FALSE(conflicts.records[1].again);
-  const auto turned = Records(3, 1, turn_tachometer).judge();
+  const auto turned = Records(3, 1, turn_tachometer).evaluate();
   EXPECT_EQ(turned.refusal, "");
   EXPECT_THAT(turned.records[0].refusal, HasSubstr("drives against the tachometer"));
   EXPECT_EQ(turned.records[1].refusal, "");
 }
 
 TEST(ColumnConflicts, AreRefusedWhereNobodyCanTellWhichMotorItIs) {
-  const auto conflicts = Records(2, 2, keep_two_and_exchange_one).judge();
+  const auto conflicts = Records(2, 2, keep_two_and_exchange_one).evaluate();
   EXPECT_THAT(conflicts.refusal, HasSubstr("cannot be told"));
   EXPECT_THAT(conflicts.refusal, HasSubstr("p1_in and p1_out, p2_in and p2_out"));
   EXPECT_THAT(conflicts.refusal, HasSubstr("2 of 2 records in motion, 'record 1' first"));
@@ -98,17 +98,17 @@ TEST(ColumnConflicts, AreRefusedWhereNobodyCanTellWhichMotorItIs) {
 
 TEST(ColumnConflicts, OfTorqueAndMotionAreRefusedWithTheRemedy) {
   for (const Edit edit : {turn_tachometer, exchange_all}) {
-    const auto conflicts = Records(3, 3, edit).judge();
+    const auto conflicts = Records(3, 3, edit).evaluate();
     EXPECT_THAT(conflicts.refusal, HasSubstr("the sign of tach is turned"));
     EXPECT_THAT(conflicts.refusal, HasSubstr("record_columns.reversed"));
   }
 }
 
 TEST(ColumnConflicts, LeaveOutACommandThatGoesAgainstTheDrive) {
-  const auto conflicts = Records(3, 2, turn_command).judge();
+  const auto conflicts = Records(3, 2, turn_command).evaluate();
   EXPECT_EQ(conflicts.refusal, "");
   for (const auto& one : conflicts.records) EXPECT_TRUE(one.options.leave_out_rate_command);
-  const auto few = Records(3, 1, turn_command).judge();
+  const auto few = Records(3, 1, turn_command).evaluate();
   EXPECT_TRUE(few.records[0].options.leave_out_rate_command);
   EXPECT_FALSE(few.records[1].options.leave_out_rate_command);
 }
@@ -116,7 +116,7 @@ TEST(ColumnConflicts, LeaveOutACommandThatGoesAgainstTheDrive) {
 TEST(ColumnConflicts, AreNotReadOffASloshTest) {
   Records records(3, 1, exchange_third);
   records.raw[0].test = TestKind::slosh;
-  EXPECT_FALSE(records.judge().records[0].again);
+  EXPECT_FALSE(records.evaluate().records[0].again);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using Channel = ScaleConflict::Channel;
 /// Records whose rate is a share of both commands, which lose more of it in some than in others.
 std::vector<DriveRecord> records() {
   std::vector<DriveRecord> all;
-  for (const double share : {0.6, 0.8, 0.9, 1.0}) {
+  for (const double fraction : {0.6, 0.8, 0.9, 1.0}) {
     DriveRecord record;
     record.name = "record " + std::to_string(all.size() + 1);
     record.test = TestKind::constant_speed;
@@ -23,7 +23,7 @@ std::vector<DriveRecord> records() {
         5.0 * Eigen::VectorXd::LinSpaced(400, 0.0, 20.0).array().sin().matrix();
     record.rate_command = Signal{command, {}};
     record.valve_command = Signal{1.3 * command, {}};
-    record.motor_rate = {share * command, {}};
+    record.motor_rate = {fraction * command, {}};
     all.push_back(std::move(record));
   }
   return all;

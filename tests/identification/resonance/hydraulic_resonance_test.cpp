@@ -264,7 +264,7 @@ TEST(RingInertia, TellsApartWhatTheSimpleFormulaMixes) {
   const auto rings = fit_step_rings(record, campaign, 52.0, ring).rings;
   const numerics::Interval stiffness = numerics::normal_interval(52.0, 0.3);
   ResonanceOptions options;
-  options.lowest_mode_share = {1.0, 0.05};
+  options.lowest_mode_fraction = {1.0, 0.05};
   const auto by = [&](ResonanceReading reading) {
     return ring_inertia(reading, rings, stiffness, record, campaign, options);
   };

@@ -77,7 +77,7 @@ TEST(SpectralPeaks, KeepToTheBandAndToWhatStandsOut) {
   PeakOptions options;
   options.lowest = 15.0;
   options.highest = 35.0;
-  options.least_over_background = 1.5;
+  options.min_over_background = 1.5;
   const auto some = spectral_peaks(axis, power, options);
   ASSERT_EQ(some.size(), 2U);
   EXPECT_NEAR(some[1].frequency, 30.0, 1e-9);

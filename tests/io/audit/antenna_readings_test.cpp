@@ -15,7 +15,7 @@
 #include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_evidence.hpp>
-#include <boresight/io/case/guessed_shares.hpp>
+#include <boresight/io/case/guessed_fractions.hpp>
 
 namespace boresight::io {
 namespace {
@@ -107,7 +107,7 @@ TEST(AntennaReadings, HaveNoAntennaWhereATestLeavesNone) {
   ASSERT_TRUE(none.tested.has_value());
   EXPECT_LT(none.tested->left(), 0.05 * none.tested->stated);
   EXPECT_TRUE(none.contradicts);
-  EXPECT_FALSE(none.other_shares || none.other_attitude);
+  EXPECT_FALSE(none.other_fractions || none.other_attitude);
 }
 
 TEST(AntennaReadings, KeepTheLeakageOfTheOtherConvention) {
@@ -126,7 +126,7 @@ Case guessing_antenna() {
 std::vector<std::string> share_readings(const Case& antenna) {
   std::vector<std::string> names;
   for (const auto& reading : antenna_readings(antenna)) {
-    if (!reading.other_shares) continue;
+    if (!reading.other_fractions) continue;
     names.push_back(reading.name);
     EXPECT_FALSE(reading.contradicts);
   }
@@ -134,12 +134,12 @@ std::vector<std::string> share_readings(const Case& antenna) {
 }
 
 TEST(AntennaReadings, TakeOtherSharesOfGuessesOnly) {
-  EXPECT_THAT(
-      share_readings(guessing_antenna()),
-      testing::ElementsAre("wind and beam shares as inertia", "wind and beam shares all at one"));
+  EXPECT_THAT(share_readings(guessing_antenna()),
+              testing::ElementsAre("wind and boresight fractions as inertia",
+                                   "wind and boresight fractions all at one"));
   // None where no share is a guess, and not the case's own again.
   Case known = guessing_antenna(), own = guessing_antenna();
-  const auto shares = [](Case& antenna) {
+  const auto fractions = [](Case& antenna) {
     std::vector<Quantity*> all{&antenna.structure->bull_gear_wind_fraction,
                                &antenna.structure->bull_gear_beam_weight};
     for (auto& mode : antenna.structure->modes) {
@@ -147,7 +147,7 @@ TEST(AntennaReadings, TakeOtherSharesOfGuessesOnly) {
     }
     return all;
   };
-  for (Quantity* share : shares(known)) share->basis = Basis::measured;
+  for (Quantity* fraction : fractions(known)) fraction->basis = Basis::measured;
   EXPECT_THAT(share_readings(known), IsEmpty());
   double rest = 1.0;
   for (auto& mode : own.structure->modes) {
@@ -155,10 +155,10 @@ TEST(AntennaReadings, TakeOtherSharesOfGuessesOnly) {
     mode.wind_fraction.value = mode.beam_weight.value = mode.inertia_fraction.value;
   }
   own.structure->bull_gear_wind_fraction.value = own.structure->bull_gear_beam_weight.value = rest;
-  EXPECT_FALSE(moves_guessed_shares(*own.structure, GuessedShares::as_inertia));
-  EXPECT_THAT(share_readings(own), testing::ElementsAre("wind and beam shares all at one"));
+  EXPECT_FALSE(moves_guessed_fractions(*own.structure, GuessedFractions::as_inertia));
+  EXPECT_THAT(share_readings(own), testing::ElementsAre("wind and boresight fractions all at one"));
   // A guess that says how far it may be off is one of the ensemble's, not of these.
-  for (Quantity* share : shares(own)) share->uncertainty_given = true;
+  for (Quantity* fraction : fractions(own)) fraction->uncertainty_given = true;
   EXPECT_THAT(share_readings(own), IsEmpty());
 }
 

@@ -156,10 +156,10 @@ TEST(Audit, FindsTheRowsOfTable3ThatDoNotFollow) {
   EXPECT_THAT(antenna->explanations, Contains(HasSubstr("antenna.inertia were '2.1666")));
   // J 1.77 for 1.81 with the disks recomputed: the antenna's row alone moves it.
   bool moves_reflected_inertia = false;
-  for (const auto& consequence : antenna->consequences) {
-    if (consequence.id != "reflected_inertia") continue;
+  for (const auto& derived_quantity : antenna->derived_quantities) {
+    if (derived_quantity.id != "reflected_inertia") continue;
     moves_reflected_inertia = true;
-    EXPECT_NEAR(consequence.as_corrected - consequence.as_printed,
+    EXPECT_NEAR(derived_quantity.as_corrected - derived_quantity.as_printed,
                 (2.41667e8 / (ratio_5 * ratio_5) - 0.262606) * pound_foot, 2e-5);
   }
   EXPECT_TRUE(moves_reflected_inertia);
@@ -197,9 +197,9 @@ TEST(Audit, FindsTheResultsOfTheTestsThatDoNotFollow) {
   // Consequence of 1.45 for 1.416: the ratio with the inertia from the lines as measured.
   const Finding* inertia =
       find(big_report(), derivation, "resonance.reflected_inertia", "1.45 kg.m2");
-  ASSERT_FALSE(inertia->consequences.empty());
-  EXPECT_EQ(inertia->consequences[0].id, "resonance.motor_to_load_ratio");
-  EXPECT_NEAR(inertia->consequences[0].as_corrected,
+  ASSERT_FALSE(inertia->derived_quantities.empty());
+  EXPECT_EQ(inertia->derived_quantities[0].id, "resonance.motor_to_load_ratio");
+  EXPECT_NEAR(inertia->derived_quantities[0].as_corrected,
               motors / (stiffness / (resonance * resonance) - motors), 1e-6);
 }
 

@@ -56,7 +56,7 @@ TEST(FrictionAgainstTheSupply, SaysHowMuchOfTheTorqueIsGone) {
   const auto found = against_supply(EditedCase().replace(viscous, large));
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].explanation, "slewing");
-  EXPECT_NEAR(found[0].number("share of the supply torque").value, 0.47, 0.005);
+  EXPECT_NEAR(found[0].number("fraction of the supply torque").value, 0.47, 0.005);
   EXPECT_THAT(against_supply(EditedCase().replace(viscous, large + ", uncertainty = \"50 %\"")),
               IsEmpty())
       << "within two standard uncertainties";

@@ -55,8 +55,8 @@ TEST(ResonanceVerdict, IsOfTheModeThatTheCaseNames) {
   antenna.structure->locked_rotor_frequency.value = 0.2;
   const auto verdict = resonance_verdict(antenna);
   ASSERT_TRUE(verdict);
-  EXPECT_LT(verdict->mode.oil_share, 0.1);
-  EXPECT_GT(verdict->oil_mode.oil_share, 0.9);
+  EXPECT_LT(verdict->mode.oil_fraction, 0.1);
+  EXPECT_GT(verdict->oil_mode.oil_fraction, 0.9);
   EXPECT_FALSE(verdict->rigid);
   antenna.resonance->of_oil = true;
   const auto of_oil = resonance_verdict(antenna);

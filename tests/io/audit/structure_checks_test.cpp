@@ -21,7 +21,7 @@ namespace {
 
 using testing::IsEmpty;
 
-TEST(StructuralShares, SayWhatASoftPartUnderTheWindMeans) {
+TEST(StructuralFractions, SayWhatASoftPartUnderTheWindMeans) {
   const std::string check = "structural_shares";
   EXPECT_THAT(failed(EditedCase(), check), IsEmpty());
   const Case antenna = parse_case(

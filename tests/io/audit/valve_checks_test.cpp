@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "io/audit/failed_checks.hpp"
-#include <boresight/design/problem/drive_reach.hpp>
+#include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/case_tests.hpp>
 #include <boresight/io/case/drive_numbers.hpp>

@@ -24,13 +24,13 @@ CampaignSection section_of(const std::vector<GreyBoxQuantity>& quantities) {
   return section;
 }
 
-GreyBoxQuantity learnt(const std::string& name, double posterior, double share) {
+GreyBoxQuantity learnt(const std::string& name, double posterior, double fraction) {
   GreyBoxQuantity quantity;
   quantity.name = name;
   quantity.prior = normal_interval(1.0, 0.1);
   quantity.posterior = normal_interval(posterior, 0.05);
-  quantity.learnt = share;
-  quantity.identified = share >= 0.5;
+  quantity.learnt = fraction;
+  quantity.identified = fraction >= 0.5;
   quantity.prior_from_drawings = true;
   return quantity;
 }

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/one_record.hpp"
-#include <boresight/design/ensembles/held_gains_evaluator.hpp>
+#include <boresight/design/ensembles/fixed_gain_evaluator.hpp>
 #include <boresight/design/tuning/tuner.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
@@ -71,11 +71,11 @@ const SupersededInput& superseded(const std::string& key) {
 }
 
 // Within three standard uncertainties, which are to be small.
-void expect_superseded(const std::string& key, double value, double largest_share) {
+void expect_superseded(const std::string& key, double value, double largest_fraction) {
   const SupersededInput& input = superseded(key);
   EXPECT_TRUE(input.assumed) << key;
   EXPECT_GT(input.standard_uncertainty, 0.0) << key;
-  EXPECT_LT(input.standard_uncertainty, largest_share * value) << key;
+  EXPECT_LT(input.standard_uncertainty, largest_fraction * value) << key;
   EXPECT_NEAR(input.value, value, 3.0 * input.standard_uncertainty) << key;
 }
 
@@ -108,7 +108,7 @@ TEST(IdentifiedPlant, IsDrawnFromWhatTheRecordsLeaveOpen) {
   const auto& antenna = designed().antenna;
   ASSERT_EQ(antenna.ensemble.members.size(), 30U);
   const double slope = true_slope(designed().section.knowledge.tracking_rate);
-  double least = slope, largest = slope;
+  double minimum = slope, largest = slope;
   const auto& slewing = antenna.ensemble.members.back();
   EXPECT_EQ(slewing.name, "friction slope at the slew rate");
   const plant::Antenna& nominal = antenna.mission.antenna;
@@ -116,12 +116,12 @@ TEST(IdentifiedPlant, IsDrawnFromWhatTheRecordsLeaveOpen) {
   EXPECT_NEAR(slewing.plant.drive.viscous_friction, at_slew, 0.05 * at_slew);
   for (const auto& member : antenna.ensemble.members) {
     if (&member == &slewing) continue;
-    least = std::min(least, member.plant.drive.viscous_friction);
+    minimum = std::min(minimum, member.plant.drive.viscous_friction);
     largest = std::max(largest, member.plant.drive.viscous_friction);
   }
-  EXPECT_GT(least, 0.93 * slope);
+  EXPECT_GT(minimum, 0.93 * slope);
   EXPECT_LT(largest, 1.07 * slope);
-  EXPECT_LT(least, largest);
+  EXPECT_LT(minimum, largest);
   EXPECT_TRUE(antenna.distribution.varies(design::UncertainInput::valve_frequency));
 }
 
@@ -151,12 +151,12 @@ TEST(IdentifiedPlant, PredictsTheRmsOfTheTrueAntenna) {
   antenna.structure.modes = moved->modes;
 
   const design::TrackingProblem problem = tracking_problem(mission);
-  const design::HardGoals goals = constraints(mission);
+  const design::Constraints goals = constraints(mission);
   design::TuningOptions options;
   options.starts = 4;
   const auto tuned = design::tune(problem, loop_structure(designed().stated, "PI"), goals, options);
   ASSERT_EQ(tuned.status, design::TuningStatus::optimal);
-  design::HeldGainsEvaluator evaluator(problem, tuned.law, goals);
+  design::FixedGainEvaluator evaluator(problem, tuned.controller, goals);
   const auto rms = [&](const plant::Antenna& one) {
     const auto values = evaluator.evaluate(linear_plant(one));
     return std::sqrt(values.wind_variance + values.noise_variance);

@@ -20,21 +20,22 @@ TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
   const auto problem = make_problem(antenna);
   const auto members = design::plant_members(mission_of(antenna), 1);
   const auto all = static_cast<int>(members.size());
-  const control::ControlLaw law{control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
-  const auto judged = design::judge(problem, members, law, {}, 1);
-  ASSERT_EQ(judged.stable, all);
+  const control::Controller controller{control::LoopStructure::pi_with_lag(),
+                                       {0.2, 0.8, 6.0, 0.2, 0.02}};
+  const auto evaluated = design::evaluate(problem, members, controller, {}, 1);
+  ASSERT_EQ(evaluated.stable, all);
   const double design_speed = problem.wind.mean_speed;
   design::PointingBudget budget;
-  budget.rms = 1.0001 * judged.largest_rms;
+  budget.rms = 1.0001 * evaluated.largest_rms;
   design::PointingBudget stronger = budget;
   budget.wind_speed = design_speed;
   stronger.wind_speed = 2.0 * design_speed;
   design::PointingBudget median = budget;
-  median.rms = judged.median_rms;
+  median.rms = evaluated.median_rms;
   design::PointingBudget unneeded = budget;
   unneeded.wind_speed.reset();
   const std::vector<design::PointingBudget> budgets{budget, stronger, median, unneeded};
-  const auto met = plants_within_budgets(problem, members, law, {}, budgets, {}, 1);
+  const auto met = plants_within_budgets(problem, members, controller, {}, budgets, {}, 1);
   ASSERT_EQ(met.size(), budgets.size());
   EXPECT_THAT(met[0], Optional(all));
   // Gusts grow with the wind: none is met in twice the design's.
@@ -42,8 +43,9 @@ TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
   EXPECT_NEAR(met[2].value_or(0), all / 2, 1);
   EXPECT_THAT(met[3], Eq(std::nullopt));
   // What the nonlinear antenna adds counts.
-  EXPECT_THAT(plants_within_budgets(problem, members, law, {}, {median}, {.factor = 100.0}, 1),
-              ElementsAre(Optional(0)));
+  EXPECT_THAT(
+      plants_within_budgets(problem, members, controller, {}, {median}, {.factor = 100.0}, 1),
+      ElementsAre(Optional(0)));
 }
 
 }  // namespace

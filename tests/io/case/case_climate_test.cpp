@@ -31,14 +31,16 @@ const std::string highest = "highest = \"30 mile/h\"\n";
 TEST(CaseClimate, TakesAMeanAndOneExceedance) {
   const io::Case antenna = io::parse_case(with_climate(exceedance + highest), "case.toml");
   ASSERT_EQ(antenna.wind->climate_parts.size(), 1U);
-  const auto& law = std::get<design::WeibullClimate>(antenna.wind->climate_parts[0].winds);
-  EXPECT_NEAR(law.scale * std::tgamma(1.0 + 1.0 / law.shape), 9.0 * mile_per_hour, 1e-9);
-  EXPECT_NEAR(std::exp(-std::pow(30.0 * mile_per_hour / law.scale, law.shape)), 0.02, 1e-9);
-  EXPECT_NEAR(law.shape, 1.19173678, 1e-8);
-  EXPECT_NEAR(law.highest, 30.0 * mile_per_hour, 1e-12);
+  const auto& controller = std::get<design::WeibullClimate>(antenna.wind->climate_parts[0].winds);
+  EXPECT_NEAR(controller.scale * std::tgamma(1.0 + 1.0 / controller.shape), 9.0 * mile_per_hour,
+              1e-9);
+  EXPECT_NEAR(std::exp(-std::pow(30.0 * mile_per_hour / controller.scale, controller.shape)), 0.02,
+              1e-9);
+  EXPECT_NEAR(controller.shape, 1.19173678, 1e-8);
+  EXPECT_NEAR(controller.highest, 30.0 * mile_per_hour, 1e-12);
   // What lies above `highest` does not count.
-  EXPECT_EQ(design::share_of_time(antenna.wind->climate_parts, 30.0 * mile_per_hour), 1.0);
-  for (const auto& one : antenna.wind->climate) EXPECT_LE(one.speed, law.highest);
+  EXPECT_EQ(design::fraction_of_time(antenna.wind->climate_parts, 30.0 * mile_per_hour), 1.0);
+  for (const auto& one : antenna.wind->climate) EXPECT_LE(one.speed, controller.highest);
   for (const char* key : {"mean", "exceeded", "exceeded_share", "highest"}) {
     const std::string path = std::string("wind.climate[0].") + key;
     EXPECT_TRUE(std::ranges::any_of(antenna.quantities, [&](const io::Quantity& one) {
@@ -55,17 +57,19 @@ TEST(CaseClimate, RaisesAMeanAndAnExceedanceFromTheMast) {
   const io::Case antenna =
       io::parse_case(edited.text() + "\n[[wind.climate]]\n" + exceedance + highest, "case.toml");
   const double ratio = std::pow(4.0, 0.14);
-  const auto& law = std::get<design::WeibullClimate>(antenna.wind->climate_parts.at(0).winds);
-  EXPECT_NEAR(law.scale * std::tgamma(1.0 + 1.0 / law.shape), ratio * 9.0 * mile_per_hour, 1e-9);
-  EXPECT_NEAR(law.shape, 1.19173678, 1e-8);
-  EXPECT_NEAR(law.highest, ratio * 30.0 * mile_per_hour, 1e-12);
+  const auto& controller =
+      std::get<design::WeibullClimate>(antenna.wind->climate_parts.at(0).winds);
+  EXPECT_NEAR(controller.scale * std::tgamma(1.0 + 1.0 / controller.shape),
+              ratio * 9.0 * mile_per_hour, 1e-9);
+  EXPECT_NEAR(controller.shape, 1.19173678, 1e-8);
+  EXPECT_NEAR(controller.highest, ratio * 30.0 * mile_per_hour, 1e-12);
 }
 
-TEST(CaseClimate, RefusesKeysOfTwoWaysAndLawsThatAreNone) {
+TEST(CaseClimate, RefusesKeysOfTwoWaysAndControllersThatAreNone) {
   const std::string entry = "wind.climate[0].";
   const std::pair<std::string, std::string> wrong[] = {
       {highest,
-       "speed: expected either a speed, or of a Weibull law scale and shape, or its mean, "
+       "speed: expected either a speed, or of a Weibull distribution scale and shape, or its mean, "
        "exceeded and exceeded_share, found none of them"},
       {exceedance + highest + "scale = \"4 m/s\"\n", "found scale and mean"},
       {exceedance + highest + "shape = \"2\"\n",
@@ -82,13 +86,14 @@ TEST(CaseClimate, RefusesKeysOfTwoWaysAndLawsThatAreNone) {
       {"mean = \"9 mile/h\"\nexceeded = \"30 mile/h\"\n" + highest,
        "exceeded_share: expected mean, exceeded, exceeded_share and"},
       {"mean = \"9 mile/h\"\nexceeded = \"30 mile/h\"\nexceeded_share = \"8 %\"\n" + highest,
-       "exceeded_share: expected a share of at most 5.52845 %, which of Weibull laws with shapes "
+       "exceeded_share: expected a fraction of at most 5.52845 %, which of Weibull distributions "
+       "with shapes "
        "from "
        "0.8 to 10 lies above 3.333 times the mean, found '8 %'"},
       {"mean = \"9 mile/h\"\nexceeded = \"30 mile/h\"\nexceeded_share = \"1\"\n" + highest,
-       "exceeded_share: expected a share of at most 5.52845 %"},
+       "exceeded_share: expected a fraction of at most 5.52845 %"},
       {"mean = \"10 m/s\"\nexceeded = \"3 m/s\"\nexceeded_share = \"50 %\"\n" + highest,
-       "exceeded_share: expected a share of at least 65.5881 %"},
+       "exceeded_share: expected a fraction of at least 65.5881 %"},
       {"mean = \"10 m/s\"\nexceeded = \"12 m/s\"\nexceeded_share = \"31 %\"\n" + highest,
        "exceeded: expected a speed further above the mean, found '12 m/s', which is exceeded as "
        "often with a shape of 1.118 as with one of 2.514"}};

@@ -52,9 +52,9 @@ TEST(MissionOf, AnotherGearRatioTakesTheNoiseWithIt) {
 TEST(MissionOf, SupplyHoldsTheMeanTorqueOfItsWindSpeed) {
   const Case stated = reference();
   const auto problem = make_problem(stated);
-  const double speed = supply_wind_speed(stated, problem);
+  const double speed = torque_limited_wind_speed(stated, problem);
   EXPECT_NEAR(std::abs(plant::mean_wind_torque(problem.wind.site, speed)) / problem.gear_ratio,
-              torque_for_wind(stated), 1e-9 * torque_for_wind(stated));
+              available_wind_torque(stated), 1e-9 * available_wind_torque(stated));
 }
 
 TEST(MissionOf, BudgetsAreTheRmsOfTheirLosses) {
@@ -74,7 +74,7 @@ TEST(MissionOf, CrestFactorAsksForTorqueThatTheSupplyHas) {
   Case stated = reference();
   stated.goals->crest_factor = stated.goals->sensitivity_peak;
   const auto goals = make_goals(stated);
-  EXPECT_EQ(goals.gust_torque, torque_for_wind(stated));
+  EXPECT_EQ(goals.gust_torque, available_wind_torque(stated));
   EXPECT_EQ(goals.gust_demand, largest_demand(stated));
   stated.drive->supply_pressure.value = 1e3;
   EXPECT_THROW(make_goals(stated), InvalidInput);

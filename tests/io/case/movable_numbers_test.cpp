@@ -31,13 +31,13 @@ MovableNumber number_of(const std::vector<MovableNumber>& numbers, const std::st
   return *found;
 }
 
-double wind_shares(const Case& antenna) {
+double wind_fractions(const Case& antenna) {
   double sum = antenna.structure->bull_gear_wind_fraction.value;
   for (const auto& mode : antenna.structure->modes) sum += mode.wind_fraction.value;
   return sum;
 }
 
-double beam_shares(const Case& antenna) {
+double boresight_fractions(const Case& antenna) {
   double sum = antenna.structure->bull_gear_beam_weight.value;
   for (const auto& mode : antenna.structure->modes) sum += mode.beam_weight.value;
   return sum;
@@ -59,7 +59,7 @@ TEST(MovableNumbers, MoveByWhatTheCaseSaysOrATenth) {
   const auto coefficient = number_of(numbers, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
   EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind->torque_coefficient.value);
-  EXPECT_FALSE(coefficient.share_of_mode);
+  EXPECT_FALSE(coefficient.fraction_of_mode);
   // The gusts' strength is kept as the plant takes it.
   const auto drag = number_of(numbers, "wind.surface_drag");
   EXPECT_NEAR(moved(antenna, drag, true).wind->gusts.surface_drag,
@@ -104,13 +104,13 @@ TEST(MovableNumbers, MoveTheStiffnessThatTheCaseStates) {
 TEST(MovableNumbers, KeepTheSumOfShares) {
   const Case antenna = own_case();
   const auto weight = number_of(movable_numbers(antenna), "structure.mode[0].beam_weight");
-  EXPECT_EQ(weight.share_of_mode, 0U);
+  EXPECT_EQ(weight.fraction_of_mode, 0U);
   const Case heavier = moved(antenna, weight, true);
-  const double most = weight.range.value().second;
-  EXPECT_NEAR(heavier.structure->modes[0].beam_weight.value, most, 1e-12);
-  EXPECT_NEAR(beam_shares(heavier), beam_shares(antenna), 1e-12);
-  EXPECT_EQ(wind_shares(heavier), wind_shares(antenna));
-  const double left = (1.0 - most) / (1.0 - antenna.structure->modes[0].beam_weight.value);
+  const double maximum = weight.range.value().second;
+  EXPECT_NEAR(heavier.structure->modes[0].beam_weight.value, maximum, 1e-12);
+  EXPECT_NEAR(boresight_fractions(heavier), boresight_fractions(antenna), 1e-12);
+  EXPECT_EQ(wind_fractions(heavier), wind_fractions(antenna));
+  const double left = (1.0 - maximum) / (1.0 - antenna.structure->modes[0].beam_weight.value);
   for (std::size_t i = 1; i < antenna.structure->modes.size(); ++i) {
     EXPECT_NEAR(heavier.structure->modes[i].beam_weight.value,
                 left * antenna.structure->modes[i].beam_weight.value, 1e-12);
@@ -125,7 +125,7 @@ TEST(MovableNumbers, GiveWhatAShareLosesToTheOthersInertias) {
   const auto &before = antenna.structure->modes, &after = lighter.structure->modes;
   const double lost = before[0].wind_fraction.value - wind.range.value().first;
   ASSERT_GT(lost, 0.1);
-  EXPECT_NEAR(wind_shares(lighter), wind_shares(antenna), 1e-12);
+  EXPECT_NEAR(wind_fractions(lighter), wind_fractions(antenna), 1e-12);
   const double others = 1.0 - before[0].inertia_fraction.value;
   for (std::size_t i = 1; i < before.size(); ++i) {
     EXPECT_NEAR(after[i].wind_fraction.value - before[i].wind_fraction.value,

@@ -34,7 +34,7 @@ TEST(PlantDistribution, OfRangesKeepsToThem) {
   double mean = 0.0, log_square = 0.0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const design::PlantDraw draw = distribution.draw(7, i);
+    const design::PlantSample draw = distribution.draw(7, i);
     const double oil = draw[design::UncertainInput::oil_stiffness];
     ASSERT_GE(oil, ranges.oil_stiffness.lower);
     ASSERT_LE(oil, ranges.oil_stiffness.upper);
@@ -53,7 +53,7 @@ TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
   // A quarter of the draws lies below what stands at the share 0.25, of every input.
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const auto quarter =
-      distribution.at_shares(std::vector<double>(distribution.inputs().size(), 0.25));
+      distribution.at_fractions(std::vector<double>(distribution.inputs().size(), 0.25));
   constexpr std::uint64_t count = 20000;
   for (const design::UncertainInput input : distribution.inputs()) {
     double below = 0.0;
@@ -90,7 +90,7 @@ TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
   double oil = 0.0, inertia = 0.0, product = 0.0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const design::PlantDraw draw = distribution.draw(5, i);
+    const design::PlantSample draw = distribution.draw(5, i);
     const double x = std::log(draw[design::UncertainInput::oil_stiffness]);
     const double y = std::log(draw[design::UncertainInput::antenna_inertia]);
     oil += x * x / count;
@@ -134,7 +134,7 @@ TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
   constexpr std::uint64_t count = 20000;
   const design::Ends& leakage = mission.uncertainty.ranges.leakage_rate;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const design::PlantDraw draw = distribution.draw(5, i);
+    const design::PlantSample draw = distribution.draw(5, i);
     const double log = std::log(draw[design::UncertainInput::friction_slope] / slope);
     mean += log / count;
     square += log * log / count;
@@ -147,14 +147,14 @@ TEST(PlantDistribution, OfRecordsHasTheirFrictionSlopeAndValve) {
   EXPECT_NEAR(mean, 0.0, 0.05 * of_slope);
   EXPECT_NEAR(std::sqrt(square) / of_slope, 1.0, 0.05);
   EXPECT_NEAR(std::sqrt(valve) / of_lag, 1.0, 0.05);
-  design::PlantDraw draw = distribution.median();
+  design::PlantSample draw = distribution.median();
   draw.values.at(place(design::UncertainInput::valve_frequency)) = 1.25;
   EXPECT_NEAR(make_plant(reference(), changes_of(draw)).drive.valve_corner,
               1.25 * make_plant(reference()).drive.valve_corner, 1e-9);
 }
 
 TEST(PlantDistribution, AFactorOfOneIsTheCase) {
-  design::PlantDraw draw;
+  design::PlantSample draw;
   draw.values.at(place(design::UncertainInput::friction_slope)) =
       reference().drive->viscous_friction.value;
   const auto own = make_plant(reference());
@@ -181,7 +181,7 @@ TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
   double square = 0.0;
   constexpr std::uint64_t count = 20000;
   for (std::uint64_t i = 0; i < count; ++i) {
-    design::PlantDraw draw = distribution.draw(7, i);
+    design::PlantSample draw = distribution.draw(7, i);
     square += std::pow(std::log(draw[design::UncertainInput::wind_torque]), 2) / count;
     draw.values.at(place(design::UncertainInput::wind_torque)) = 1.0;
     ASSERT_EQ(draw.values, calm.draw(7, i).values);
@@ -196,16 +196,16 @@ TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const std::uint64_t stream = numerics::splitmix64(7, 0x5eed0001);
   for (std::uint64_t i = 0; i < 5; ++i) {
-    const double share =
+    const double fraction =
         (static_cast<double>(numerics::splitmix64(stream, 6 * i + 1) >> 12U) + 0.5) * 0x1p-52;
     EXPECT_DOUBLE_EQ(distribution.draw(7, i)[design::UncertainInput::oil_stiffness],
                      ranges.oil_stiffness.lower +
-                         share * (ranges.oil_stiffness.upper - ranges.oil_stiffness.lower));
+                         fraction * (ranges.oil_stiffness.upper - ranges.oil_stiffness.lower));
   }
 }
 
 TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
-  design::PlantDraw draw = design::PlantDistribution::of_ranges(mission_of(reference())).median();
+  design::PlantSample draw = design::PlantDistribution::of_ranges(mission_of(reference())).median();
   const auto calm = make_plant(reference(), changes_of(draw)).structure;
   draw.values.at(place(design::UncertainInput::wind_torque)) = 1.2;
   const auto windy = make_plant(reference(), changes_of(draw)).structure;
@@ -218,8 +218,8 @@ TEST(PlantDistribution, AWindTorqueIsThatOfThePlant) {
 
 TEST(PlantDistribution, RefusesWhatIsNoShare) {
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
-  EXPECT_THROW(distribution.at_shares({0.5}), InvalidInput);
-  EXPECT_THROW(distribution.at_shares(std::vector<double>(distribution.inputs().size(), 1.0)),
+  EXPECT_THROW(distribution.at_fractions({0.5}), InvalidInput);
+  EXPECT_THROW(distribution.at_fractions(std::vector<double>(distribution.inputs().size(), 1.0)),
                InvalidInput);
   EXPECT_THROW(design::PlantDistribution::of_records(mission_of(reference()), {}), InvalidInput);
 }

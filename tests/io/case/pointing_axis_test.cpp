@@ -66,22 +66,24 @@ TEST(PointingAxis, FactorIsTheCosineOfTheYAngleOfAnXAxis) {
 
 // The loops act on the axis: only the boresight error depends on the attitude.
 TEST(PointingAxis, RmsAtTheSkyFallsByTheCosineWithTheSameGains) {
-  const control::ControlLaw law{control::LoopStructure::pi_with_lag(),
-                                {0.1587, 0.42067, 2.6279, 10.258, 0.23531}};
+  const control::Controller controller{control::LoopStructure::pi_with_lag(),
+                                       {0.1587, 0.42067, 2.6279, 10.258, 0.23531}};
   const auto of = [&](const Case& stated) {
     const design::Mission mission = mission_of(stated);
-    return design::assess(design::tracking_problem(mission), law, design::constraints(mission));
+    return design::assess(design::tracking_problem(mission), controller,
+                          design::constraints(mission));
   };
   for (Case (*const make)(double) : {&azimuth_case, &x_axis_case}) {
     const design::Design full = of(make(0.0));
-    ASSERT_GT(full.beam_rms, 0.0);
+    ASSERT_GT(full.boresight_rms, 0.0);
     for (const double angle : {60.0, 80.0}) {
       const Case stated = make(angle);
       const design::Design found = of(stated);
       const double factor = std::cos(angle * degree);
-      EXPECT_NEAR(found.beam_rms / full.beam_rms, factor, 1e-9 * factor) << stated.axis << angle;
+      EXPECT_NEAR(found.boresight_rms / full.boresight_rms, factor, 1e-9 * factor)
+          << stated.axis << angle;
       EXPECT_NEAR(found.noise_rms / full.noise_rms, factor, 1e-9 * factor) << stated.axis << angle;
-      EXPECT_EQ(found.valve_effort, full.valve_effort) << stated.axis << angle;
+      EXPECT_EQ(found.control_effort, full.control_effort) << stated.axis << angle;
       for (std::size_t b = 0; b < found.verification.peaks.size(); ++b) {
         EXPECT_EQ(found.verification.peaks[b].upper, full.verification.peaks[b].upper);
       }

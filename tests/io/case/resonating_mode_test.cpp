@@ -32,9 +32,9 @@ TEST(ResonatingMode, AStiffStructureRingsAsRigidAndASoftOneDoesNot) {
 
 TEST(ResonatingMode, HasLittleOfTheOilWhereAnotherHasMore) {
   plant::PlantMode soft, oil;
-  soft.oil_share = 0.2;
-  soft.gear_share = 0.7;
-  oil.oil_share = 0.8;
+  soft.oil_fraction = 0.2;
+  soft.gear_fraction = 0.7;
+  oil.oil_fraction = 0.8;
   EXPECT_TRUE(little_of_oil(soft, oil));
   EXPECT_FALSE(little_of_oil(oil, oil));
   soft.damping_ratio = 1.2;

@@ -8,7 +8,7 @@ namespace boresight::io {
 namespace {
 
 design::AdjustableLoop some_loop() {
-  return {"PI", reference::cautious_law(), reference::tracking_problem(), {}};
+  return {"PI", reference::cautious_gains(), reference::tracking_problem(), {}};
 }
 
 TEST(AdjustableLoopDescription, NumbersAreInTheUnitsThatTheyAreComputedIn) {
@@ -28,14 +28,14 @@ TEST(AdjustableLoopDescription, EachBlockHasItsOwnGains) {
   const auto loop = some_loop();
   RecordingVisitor v;
   describe(v, loop);
-  const auto& blocks = loop.law.structure.blocks();
-  ASSERT_EQ(blocks.size(), loop.law.gains.size());
+  const auto& blocks = loop.controller.structure.blocks();
+  ASSERT_EQ(blocks.size(), loop.controller.gains.size());
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const std::string place = "blocks[" + std::to_string(i) + "].";
     EXPECT_EQ(v.texts_found.at(place + "path"), control::to_string(blocks[i].path));
     EXPECT_EQ(v.texts_found.at(place + "kind"), control::to_string(blocks[i].kind));
     EXPECT_EQ(v.texts_found.at(place + "gains[0].symbol"), blocks[i].gains[0].symbol);
-    EXPECT_EQ(v.numbers_found.at(place + "gains[0].value"), loop.law.gains[i]);
+    EXPECT_EQ(v.numbers_found.at(place + "gains[0].value"), loop.controller.gains[i]);
   }
 }
 
@@ -50,7 +50,7 @@ TEST(AdjustableLoopDescription, SiteWithoutGustsOfItsOwnHasDavenports) {
 TEST(AdjustableLoopDescription, ALoopByDefaultCanBeDescribed) {
   RecordingVisitor v(true);
   describe(v, design::AdjustableLoop{});
-  EXPECT_TRUE(v.numbers_found.contains("limits.valve_effort_rad_per_s"));
+  EXPECT_TRUE(v.numbers_found.contains("limits.control_effort_rad_per_s"));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(DesignResults, EnsemblesNameTheirWorstMember) {
   RecordingVisitor v;
   describe(v, ensemble);
   EXPECT_EQ(v.texts_found.at("worst"), "soft");
-  EXPECT_DOUBLE_EQ(*v.numbers_found.at("largest_beam_rms_mdeg"), 1.0);
+  EXPECT_DOUBLE_EQ(*v.numbers_found.at("largest_boresight_rms_mdeg"), 1.0);
   EXPECT_EQ(v.texts_found.at("members[0].name"), "stiff");
 }
 

@@ -17,14 +17,14 @@ TEST(Estimates, MembersAreInTheUnitOfTheKeyAround) {
 
 TEST(Estimates, DistributionsHoldTheirQuantiles) {
   design::DistributionSummary summary;
-  summary.draws = 3;
+  summary.random_samples = 3;
   summary.largest = 4000.0;
   summary.quantiles = {{0.5, {1000.0, 500.0, 2000.0}}};
   RecordingVisitor v;
   describe_distribution(v, "length", summary, {.suffix = "km", .divisor = 1000.0}, "Of ways.");
   EXPECT_EQ(v.numbers_found.at("length_km.plants"), 3.0);
   EXPECT_EQ(v.numbers_found.at("length_km.largest"), 4.0);
-  EXPECT_EQ(v.numbers_found.at("length_km.quantiles[0].share_1"), 0.5);
+  EXPECT_EQ(v.numbers_found.at("length_km.quantiles[0].fraction_1"), 0.5);
   EXPECT_EQ(v.numbers_found.at("length_km.quantiles[0].upper"), 2.0);
 }
 

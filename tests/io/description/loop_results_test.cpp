@@ -46,13 +46,13 @@ TEST(LoopResults, SensitivityIsAFactorAtAFrequencyInHertz) {
 }
 
 TEST(LoopResults, LimitCyclesAreToldInThreeDepthsOfOneOrder) {
-  const design::HuntingResult result;
+  const design::LimitCycleResult result;
   RecordingVisitor score, study, full;
   describe(score, result, LimitCycleDetail::score);
   describe(study, result, LimitCycleDetail::study);
   describe(full, result, LimitCycleDetail::full);
   EXPECT_THAT(score.places, testing::ElementsAre("rate_mdeg_per_s", "status", "limit_cycle",
-                                                 "beam_amplitude_mdeg", "frequency_Hz"));
+                                                 "boresight_amplitude_mdeg", "frequency_Hz"));
   EXPECT_THAT(study.places, testing::IsSupersetOf(score.places));
   EXPECT_THAT(full.places, testing::IsSupersetOf(study.places));
   EXPECT_EQ(full.places.size(), 10U);

@@ -10,12 +10,12 @@ TEST(PointingLimitResults, CostsAreInSquareMillidegrees) {
   constexpr double millidegree = key_units::millidegree_in_radians;
   design::PointingLimit limit;
   limit.bound.points = {{4.0 * millidegree * millidegree, 9.0 * millidegree * millidegree}};
-  limit.least_rms = 3.0 * millidegree;
+  limit.min_rms = 3.0 * millidegree;
   RecordingVisitor v;
   describe(v, limit);
   EXPECT_DOUBLE_EQ(*v.numbers_found.at("bound_points[0].weight_mdeg2_s2_per_rad2"), 4.0);
   EXPECT_DOUBLE_EQ(*v.numbers_found.at("bound_points[0].cost_mdeg2"), 9.0);
-  EXPECT_DOUBLE_EQ(*v.numbers_found.at("least_rms_mdeg"), 3.0);
+  EXPECT_DOUBLE_EQ(*v.numbers_found.at("min_rms_mdeg"), 3.0);
 }
 
 TEST(PointingLimitResults, BenchmarksMayBeMissing) {

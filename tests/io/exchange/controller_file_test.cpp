@@ -17,12 +17,12 @@ namespace {
 
 using testing::HasSubstr;
 
-control::ControlLaw law() {
+control::Controller controller() {
   return {control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
 }
 
 plant::StateSpace system() {
-  return control::antenna_state_space_controller(control::to_state_space(law()));
+  return control::antenna_state_space_controller(control::to_state_space(controller()));
 }
 
 std::string refusal(std::string_view content, const io::ControllerNames& names = {}) {
@@ -184,9 +184,9 @@ TEST(GainsFile, ReadsTomlInOrOutOfItsTable) {
       "wip = \"0.02 rad/s\"\n";
   for (const std::string& text : {gains, "[gains]\n" + gains}) {
     const auto file = io::read_gains_file(folder.write("gains.toml", text), antenna);
-    EXPECT_EQ(file.law.structure, control::LoopStructure::named("PI"));
-    ASSERT_EQ(file.law.gains.size(), 5U);
-    EXPECT_NEAR(file.law.gains[1], 2.0 * std::numbers::pi * 0.127, 1e-12);
+    EXPECT_EQ(file.controller.structure, control::LoopStructure::named("PI"));
+    ASSERT_EQ(file.controller.gains.size(), 5U);
+    EXPECT_NEAR(file.controller.gains[1], 2.0 * std::numbers::pi * 0.127, 1e-12);
   }
   const auto message = [&](const std::string& text) {
     try {
@@ -199,27 +199,28 @@ TEST(GainsFile, ReadsTomlInOrOutOfItsTable) {
   EXPECT_THAT(message(gains + "kx = \"1\"\n"), HasSubstr("kx"));
   EXPECT_THAT(message("structure = \"PJ\"\n"), HasSubstr("found 'PJ'"));
   EXPECT_THAT(message("{\"tuned\": 1}"), HasSubstr("a report of `boresight tune`"));
-  EXPECT_THAT(message("{\"tuned\": {\"laws\": []}}"),
-              HasSubstr("a tuned law that meets its goals, found none"));
+  EXPECT_THAT(message("{\"tuned\": {\"controllers\": []}}"),
+              HasSubstr("a tuned controller that meets its goals, found none"));
 }
 
-TEST(GainsFile, TakesTheBestLawOfATuneReport) {
+TEST(GainsFile, TakesTheBestControllerOfATuneReport) {
   const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
   const ScratchFolder folder;
   const auto row = [](const char* purpose, const char* rms, const char* met, const char* kr) {
     return std::string(R"({"structure": "PI-0", "tuned_for": ")") + purpose +
-           R"(", "design_wind_speed_m_per_s": 10, "goals_met": )" + met + R"(, "beam_rms_mdeg": )" +
-           rms + R"(, "gains_as_written": [{"symbol": "kr", "value": ")" + kr +
+           R"(", "design_wind_speed_m_per_s": 10, "constraints_met": )" + met +
+           R"(, "boresight_rms_mdeg": )" + rms +
+           R"(, "gains_as_written": [{"symbol": "kr", "value": ")" + kr +
            R"("}, {"symbol": "wi", "value": "0.8 rad/s"}, {"symbol": "kp", "value": "0.2 1/s"},
                {"symbol": "wip", "value": "0.02 rad/s"}]})";
   };
-  const std::string path =
-      folder.write("report.json", R"({"tuned": {"laws": [)" + row("nominal", "0.1", "true", "0.1") +
-                                      "," + row("robust", "0.3", "true", "0.3") + "," +
-                                      row("robust", "0.2", "false", "0.4") + "," +
-                                      row("robust", "0.25", "true", "0.5") + "]}}");
+  const std::string path = folder.write(
+      "report.json", R"({"tuned": {"controllers": [)" + row("nominal", "0.1", "true", "0.1") + "," +
+                         row("robust", "0.3", "true", "0.3") + "," +
+                         row("robust", "0.2", "false", "0.4") + "," +
+                         row("robust", "0.25", "true", "0.5") + "]}}");
   const auto file = io::read_gains_file(path, antenna);
-  EXPECT_DOUBLE_EQ(file.law.gains[0], 0.5);
+  EXPECT_DOUBLE_EQ(file.controller.gains[0], 0.5);
   EXPECT_THAT(file.description, HasSubstr("PI-0, robust"));
   EXPECT_THROW(io::read_gains_file(path, antenna, "DPF"), InvalidInput);
 }

@@ -22,17 +22,17 @@ Case antenna_of_test() {
   return parse_case(EditedCase().text(), "case.toml");
 }
 
-TEST(LawByKey, TakesGainsInAnyOrderAndUnit) {
-  const auto law = law_by_key(antenna_of_test(), "PI-0", pi);
-  EXPECT_EQ(law.structure, control::LoopStructure::named("PI-0"));
-  EXPECT_DOUBLE_EQ(gain(law, "kr"), 0.2);
-  EXPECT_NEAR(gain(law, "wi"), 2.0 * std::numbers::pi * 0.127, 1e-12);
-  EXPECT_DOUBLE_EQ(gain(law, "kp"), 0.2);
-  EXPECT_DOUBLE_EQ(gain(law, "wip"), 0.02);
+TEST(ControllerByKey, TakesGainsInAnyOrderAndUnit) {
+  const auto controller = controller_by_key(antenna_of_test(), "PI-0", pi);
+  EXPECT_EQ(controller.structure, control::LoopStructure::named("PI-0"));
+  EXPECT_DOUBLE_EQ(gain(controller, "kr"), 0.2);
+  EXPECT_NEAR(gain(controller, "wi"), 2.0 * std::numbers::pi * 0.127, 1e-12);
+  EXPECT_DOUBLE_EQ(gain(controller, "kp"), 0.2);
+  EXPECT_DOUBLE_EQ(gain(controller, "wip"), 0.02);
 }
 
 // The text that the sliders of a report page give.
-TEST(LawByKey, TakesEveryGainInItsOwnUnitToTheLastDigit) {
+TEST(ControllerByKey, TakesEveryGainInItsOwnUnitToTheLastDigit) {
   const auto structure = control::LoopStructure::named("FULL+N+C");
   std::vector<std::string> texts;
   std::vector<double> values;
@@ -41,14 +41,14 @@ TEST(LawByKey, TakesEveryGainInItsOwnUnitToTheLastDigit) {
     texts.push_back(fmt::format("{}={}{}", gain.symbol, values.back(),
                                 gain.unit == "1" ? "" : " " + gain.unit));
   }
-  EXPECT_EQ(law_by_key(antenna_of_test(), "FULL+N+C", texts).gains, values);
+  EXPECT_EQ(controller_by_key(antenna_of_test(), "FULL+N+C", texts).gains, values);
 }
 
-TEST(LawByKey, SaysWhichGainIsMissingOrWrong) {
+TEST(ControllerByKey, SaysWhichGainIsMissingOrWrong) {
   const Case antenna = antenna_of_test();
   const auto refusal = [&](const std::vector<std::string>& gains) -> std::string {
     try {
-      law_by_key(antenna, "PI-0", gains);
+      controller_by_key(antenna, "PI-0", gains);
     } catch (const InvalidInput& error) {
       return error.what();
     }
@@ -64,7 +64,7 @@ TEST(LawByKey, SaysWhichGainIsMissingOrWrong) {
   auto still = pi;
   still[1] = "kr=0";
   EXPECT_NE(refusal(still), "taken");
-  EXPECT_THROW(law_by_key(antenna, "XY", pi), InvalidInput);
+  EXPECT_THROW(controller_by_key(antenna, "XY", pi), InvalidInput);
 }
 
 }  // namespace

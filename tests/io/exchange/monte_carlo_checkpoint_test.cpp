@@ -21,7 +21,7 @@ const std::string digest(64, 'd');
 design::MonteCarlo study_of(std::uint64_t plants) {
   design::MonteCarlo study;
   study.problem = reference::tracking_problem();
-  study.law = reference::cautious_law();
+  study.controller = reference::cautious_gains();
   study.plants = plants;
   study.plant = [](std::uint64_t) { return reference::antenna(); };
   return study;
@@ -33,7 +33,7 @@ MonteCarloRun half_done() {
   for (const std::size_t block : {std::size_t{0}, std::size_t{2}}) {
     std::vector<PlantOutcome> outcomes(block == 2 ? 50 : 100);
     for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      outcomes[k].beam_rms = 1e-6 * static_cast<double>(100 * block + k);
+      outcomes[k].boresight_rms = 1e-6 * static_cast<double>(100 * block + k);
     }
     run.put(block, outcomes);
   }
@@ -108,20 +108,20 @@ TEST(MonteCarloCheckpoint, RefusesFilesOfOtherRuns) {
 }
 
 TEST(DigestOf, DiffersWhereTheRunDoes) {
-  const auto draws = design::PlantDistribution::of_ranges({});
+  const auto random_samples = design::PlantDistribution::of_ranges({});
   const auto study = study_of(250);
-  const std::string own = digest_of("1", "case", study, draws, 1);
+  const std::string own = digest_of("1", "case", study, random_samples, 1);
   EXPECT_EQ(own.size(), 64U);
-  EXPECT_EQ(own, digest_of("1", "case", study, draws, 1));
-  EXPECT_NE(own, digest_of("2", "case", study, draws, 1));
-  EXPECT_NE(own, digest_of("1", "another case", study, draws, 1));
-  EXPECT_NE(own, digest_of("1", "case", study, draws, 2));
+  EXPECT_EQ(own, digest_of("1", "case", study, random_samples, 1));
+  EXPECT_NE(own, digest_of("2", "case", study, random_samples, 1));
+  EXPECT_NE(own, digest_of("1", "another case", study, random_samples, 1));
+  EXPECT_NE(own, digest_of("1", "case", study, random_samples, 2));
   auto other = study;
-  other.law.gains[0] *= 1.0 + 1e-15;
-  EXPECT_NE(own, digest_of("1", "case", other, draws, 1));
+  other.controller.gains[0] *= 1.0 + 1e-15;
+  EXPECT_NE(own, digest_of("1", "case", other, random_samples, 1));
   other = study;
   other.plant = [](std::uint64_t) { return reference::antenna(23.0); };
-  EXPECT_NE(own, digest_of("1", "case", other, draws, 1));
+  EXPECT_NE(own, digest_of("1", "case", other, random_samples, 1));
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ struct Row {
 std::string row_of(const Row& row) {
   const std::string kr = std::to_string(row.first_gain);
   return R"({"structure": "PI-0", "tuned_for": ")" + row.purpose +
-         R"(", "design_wind_speed_m_per_s": 10, "goals_met": )" + (row.meets ? "true" : "false") +
-         R"(, "beam_rms_mdeg": )" + std::to_string(row.rms) + row.more + R"(, "design": )" +
-         design_of("PI-0", row.first_gain) +
+         R"(", "design_wind_speed_m_per_s": 10, "constraints_met": )" +
+         (row.meets ? "true" : "false") + R"(, "boresight_rms_mdeg": )" + std::to_string(row.rms) +
+         row.more + R"(, "design": )" + design_of("PI-0", row.first_gain) +
          R"(, "gains_as_written": [{"symbol": "kr", "value": ")" + kr +
          R"("}, {"symbol": "wi", "value": "0.127 Hz"}, {"symbol": "kp", "value": "0.2 1/s"},
                 {"symbol": "wip", "value": "0.02 rad/s"}]})";
@@ -56,13 +56,13 @@ std::string row_of(const Row& row) {
 std::string tune_report(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) text += (text.empty() ? "" : ",") + row_of(row);
-  return R"({"tuned": {"laws": [)" + text + "]}}";
+  return R"({"tuned": {"controllers": [)" + text + "]}}";
 }
 
 double first_gain(const std::vector<Row>& rows) {
   const ScratchFolder folder;
   const std::string path = folder.write("report.json", tune_report(rows));
-  return controller_of_report(antenna_of_test(), path, "").law.gains.at(0);
+  return controller_of_report(antenna_of_test(), path, "").controller.gains.at(0);
 }
 
 TEST(ControllerOfReport, IsTheOneThatTheReportRecommends) {
@@ -88,8 +88,8 @@ TEST(ControllerOfReport, HasAllGainsOfItsDesign) {
   const Case antenna = antenna_of_test();
   const std::string path = folder.write("report.json", tune_report({{.first_gain = 0.125}}));
   const auto found = controller_of_report(antenna, path, "PI-0");
-  EXPECT_EQ(found.law.structure, control::LoopStructure::named("PI-0"));
-  EXPECT_THAT(found.law.gains, ElementsAre(0.125, 0.25, 0.375, 0.5));
+  EXPECT_EQ(found.controller.structure, control::LoopStructure::named("PI-0"));
+  EXPECT_THAT(found.controller.gains, ElementsAre(0.125, 0.25, 0.375, 0.5));
   EXPECT_EQ(found.structure, "PI-0");
   EXPECT_EQ(found.tuned_for, "robust");
   // A report of one design has no purpose to name.
@@ -97,7 +97,7 @@ TEST(ControllerOfReport, HasAllGainsOfItsDesign) {
   const std::string one =
       folder.write("redesign.json", R"({"tuning": {"design": )" + design_of(full, 0.25) + "}}");
   const auto alone = controller_of_report(antenna, one, "");
-  EXPECT_THAT(alone.law.gains, ElementsAre(0.25, 0.5, 0.75, 1.0));
+  EXPECT_THAT(alone.controller.gains, ElementsAre(0.25, 0.5, 0.75, 1.0));
   EXPECT_EQ(alone.structure, full);
   EXPECT_EQ(alone.tuned_for, "");
 }
@@ -127,9 +127,9 @@ TEST(WrittenControllerOfReport, TakesGainsInTheEngineersUnits) {
   const auto found = written_controller_of_report(
       antenna, tune_report({{.rms = 0.2, .meets = false, .first_gain = 0.4}, {.first_gain = 0.3}}),
       "report.json", "");
-  ASSERT_EQ(found.law.gains.size(), 4U);
-  EXPECT_DOUBLE_EQ(found.law.gains[0], 0.3);
-  EXPECT_NEAR(found.law.gains[1], 6.283185307179586 * 0.127, 1e-12);
+  ASSERT_EQ(found.controller.gains.size(), 4U);
+  EXPECT_DOUBLE_EQ(found.controller.gains[0], 0.3);
+  EXPECT_NEAR(found.controller.gains[1], 6.283185307179586 * 0.127, 1e-12);
   // What misses its goals is not taken.
   EXPECT_THROW(written_controller_of_report(antenna, tune_report({{.meets = false}}), "r.json", ""),
                InvalidInput);

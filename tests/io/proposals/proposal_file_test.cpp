@@ -125,7 +125,7 @@ TEST(ProposalFile, RefusesWhatItCannotMean) {
               "the valve's stroke follows, or simulation.valve_stroke, found both"},
       Refusal{"[oil]\nline_share = '0.5'\n", "found no line_lengths"},
       Refusal{"[oil]\nline_lengths = { factor = 2 }\nline_share = { factor = '0.5' }\n",
-              "expected a share within 0 to 1, found a factor"},
+              "expected a fraction within 0 to 1, found a factor"},
       Refusal{"[controller]\nsample_rate = { factor = 2 }\n",
               "expected a frequency such as \"100 Hz\", found a factor"},
       Refusal{"[hydraulics]\nx = 1\n", "hydraulics: expected one of the keys"}};

@@ -89,7 +89,7 @@ double leakage(const Case& antenna) {
 }
 
 const DerivedChange* find(const ProposedCase& proposed, const std::string& quantity) {
-  for (const auto& one : proposed.consequences) {
+  for (const auto& one : proposed.derived_quantities) {
     if (one.quantity == quantity) return &one;
   }
   return nullptr;
@@ -132,7 +132,7 @@ TEST(ProposedCase, DisplacementChangesAllThatPressureAndFlowDo) {
               1e-12);
   EXPECT_NEAR(larger.simulation->valve_stroke.value / as_is().simulation->valve_stroke.value,
               1.0 / 1.41, 1e-12);
-  EXPECT_NEAR(larger.goals->valve_effort.value / as_is().goals->valve_effort.value, 1.0 / 1.41,
+  EXPECT_NEAR(larger.goals->control_effort.value / as_is().goals->control_effort.value, 1.0 / 1.41,
               1e-12);
   ASSERT_NE(find(proposed, "oil stiffness K"), nullptr);
   EXPECT_THAT(find(proposed, "oil stiffness K")->follows_from, HasSubstr("D^2"));
@@ -226,13 +226,13 @@ TEST(ProposedCase, RatedFlowDoesWhatTheStrokeDoes) {
     const auto by_flow = of(antenna, "[drive]\nvalve_rated_flow = " + flow + "\n");
     EXPECT_NEAR(by_flow.antenna.simulation->valve_stroke.value,
                 by_stroke.antenna.simulation->valve_stroke.value, 1e-9);
-    for (const char* quantity : {"valve stroke, no-load motor rate", "valve effort allowed",
+    for (const char* quantity : {"valve stroke, no-load motor rate", "control effort allowed",
                                  "slew rate at the sky within the stroke"}) {
       const auto* found = find(by_flow, quantity);
       ASSERT_NE(found, nullptr) << quantity;
       EXPECT_NEAR(found->after / found->before, 2.0, 1e-12) << quantity;
     }
-    EXPECT_EQ(by_flow.consequences.size(), 3U);
+    EXPECT_EQ(by_flow.derived_quantities.size(), 3U);
     ASSERT_EQ(by_flow.changes.size(), 1U);
     EXPECT_EQ(by_flow.changes[0].before, "160 L/min");
   }
@@ -257,7 +257,7 @@ TEST(ProposedCase, RatedFlowGoesWithDisplacementAndPressure) {
     }
     const Case after = of(antenna, text).antenna;
     EXPECT_NEAR(largest_demand(after) / rated_stroke(after).value().value, 1.0, 1e-12);
-    EXPECT_NEAR(after.goals->valve_effort.value / antenna.goals->valve_effort.value,
+    EXPECT_NEAR(after.goals->control_effort.value / antenna.goals->control_effort.value,
                 largest_demand(after) / largest_demand(antenna), 1e-12);
   }
 }
@@ -401,7 +401,7 @@ TEST(ProposedCase, RefusesContradictions) {
       {"[motor]\ncount = { factor = 0.3 }\n", "motor.count: expected a whole number of motors"},
       {"[motor]\ndisplacement = { factor = 0 }\n", "motor.displacement: expected a result"},
       {"[oil]\nline_lengths = { factor = 0.1 }\n",
-       "oil.line_lengths: expected line_share (the share of each volume that is lines) or "
+       "oil.line_lengths: expected line_share (the fraction of each volume that is lines) or "
        "the volumes beside it, found neither"},
       {"[oil]\nline_lengths = { factor = 0.1 }\nvolume_1 = '0.02 m3'\n",
        "expected both volumes beside it, found no oil.volume_2"},

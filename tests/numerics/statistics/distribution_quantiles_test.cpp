@@ -12,21 +12,24 @@ namespace boresight::design {
 namespace {
 
 TEST(DistributionQuantiles, AgreeWithClosedForms) {
-  for (const double share : {1e-6, 0.01, 0.3, 0.5, 0.8, 0.999}) {
+  for (const double fraction : {1e-6, 0.01, 0.3, 0.5, 0.8, 0.999}) {
     // One degree of freedom: Cauchy's; two: (2 p - 1)/sqrt(2 p (1 - p)).
-    EXPECT_NEAR(numerics::student_quantile(share, 1.0), std::tan(std::numbers::pi * (share - 0.5)),
-                1e-10 * (1.0 + std::abs(numerics::student_quantile(share, 1.0))));
-    EXPECT_NEAR(numerics::student_quantile(share, 2.0),
-                (2.0 * share - 1.0) / std::sqrt(2.0 * share * (1.0 - share)), 1e-10 / share);
-    EXPECT_NEAR(numerics::beta_quantile(share, 1.0, 3.0), -std::expm1(std::log1p(-share) / 3.0),
-                1e-12);
-    EXPECT_NEAR(numerics::chi_squared_quantile(share, 2.0), -2.0 * std::log1p(-share), 1e-11);
+    EXPECT_NEAR(numerics::student_quantile(fraction, 1.0),
+                std::tan(std::numbers::pi * (fraction - 0.5)),
+                1e-10 * (1.0 + std::abs(numerics::student_quantile(fraction, 1.0))));
+    EXPECT_NEAR(numerics::student_quantile(fraction, 2.0),
+                (2.0 * fraction - 1.0) / std::sqrt(2.0 * fraction * (1.0 - fraction)),
+                1e-10 / fraction);
+    EXPECT_NEAR(numerics::beta_quantile(fraction, 1.0, 3.0),
+                -std::expm1(std::log1p(-fraction) / 3.0), 1e-12);
+    EXPECT_NEAR(numerics::chi_squared_quantile(fraction, 2.0), -2.0 * std::log1p(-fraction), 1e-11);
     // F of 2 and 2: p/(1 - p).
-    EXPECT_NEAR(numerics::f_quantile(share, 2.0, 2.0) / (share / (1.0 - share)), 1.0, 1e-11);
+    EXPECT_NEAR(numerics::f_quantile(fraction, 2.0, 2.0) / (fraction / (1.0 - fraction)), 1.0,
+                1e-11);
     // Fisher's F of 1 and n is Student's t squared.
-    if (share > 0.5) {
-      EXPECT_NEAR(numerics::f_quantile(2.0 * share - 1.0, 1.0, 7.0),
-                  std::pow(numerics::student_quantile(share, 7.0), 2), 1e-9);
+    if (fraction > 0.5) {
+      EXPECT_NEAR(numerics::f_quantile(2.0 * fraction - 1.0, 1.0, 7.0),
+                  std::pow(numerics::student_quantile(fraction, 7.0), 2), 1e-9);
     }
   }
   // Tables: t of 10 degrees at 97.5 %, F of 5 and 10 at 95 %.
@@ -61,7 +64,7 @@ TEST(DistributionQuantiles, SayWhatIsWrong) {
   };
   using testing::HasSubstr;
   EXPECT_THAT(refusal([] { numerics::student_quantile(97.5, 3.0); }),
-              HasSubstr("student_quantile: expected a share within (0, 1), found 97.5"));
+              HasSubstr("student_quantile: expected a fraction within (0, 1), found 97.5"));
   EXPECT_THAT(refusal([] { numerics::student_quantile(0.5, -1.0); }), HasSubstr("found -1"));
   EXPECT_THAT(refusal([] { numerics::beta_quantile(0.0, 1.0, 1.0); }), HasSubstr("beta_quantile"));
   EXPECT_THAT(refusal([] { numerics::f_quantile(0.5, 1.0, 0.0); }),

@@ -37,7 +37,7 @@ TEST(Quantile, LiesStraightBetweenNeighbours) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   EXPECT_EQ(quantile(std::vector<double>{1.0, infinity, infinity}, 0.8), infinity);
   EXPECT_THAT(reference::Call([&] { quantile(rising, 97.5); }),
-              ThrowsMessage<InvalidInput>(HasSubstr("share within [0, 1], found 3 and 97.5")));
+              ThrowsMessage<InvalidInput>(HasSubstr("fraction within [0, 1], found 3 and 97.5")));
   EXPECT_THROW(quantile(std::vector<double>(), 0.5), InvalidInput);
 }
 
@@ -56,11 +56,11 @@ TEST(RankBelowQuantile, LiesAboveAsSeldomAsAsked) {
   const std::ptrdiff_t rank = rank_below_quantile(count, 0.3, 0.1);
   int above = 0, next_above = 0;
   for (int trial = 0; trial < trials; ++trial) {
-    std::vector<double> draws(count);
-    for (double& draw : draws) draw = random.uniform(0.0, 1.0);
-    std::ranges::sort(draws);
-    above += draws[static_cast<std::size_t>(rank)] > 0.3 ? 1 : 0;
-    next_above += draws[static_cast<std::size_t>(rank + 1)] > 0.3 ? 1 : 0;
+    std::vector<double> random_samples(count);
+    for (double& draw : random_samples) draw = random.uniform(0.0, 1.0);
+    std::ranges::sort(random_samples);
+    above += random_samples[static_cast<std::size_t>(rank)] > 0.3 ? 1 : 0;
+    next_above += random_samples[static_cast<std::size_t>(rank + 1)] > 0.3 ? 1 : 0;
   }
   const double error = std::sqrt(0.1 * 0.9 / trials);
   EXPECT_LT(above, trials * (0.1 + 4.0 * error));

@@ -33,18 +33,18 @@ TEST(Propagate, FirstOrderOfAProductAddsRelativeUncertainties) {
   EXPECT_NEAR(result.standard_uncertainty, result.value * std::hypot(of_a, of_b), 1e-7);
   ASSERT_EQ(result.contributions.size(), 2u);
   EXPECT_EQ(result.contributions[0].input, "b");
-  const double share = of_b * of_b / (of_a * of_a + of_b * of_b);
-  EXPECT_NEAR(result.contributions[0].share, share, 1e-8);
-  EXPECT_NEAR(result.contributions[1].share, 1.0 - share, 1e-8);
+  const double fraction = of_b * of_b / (of_a * of_a + of_b * of_b);
+  EXPECT_NEAR(result.contributions[0].fraction, fraction, 1e-8);
+  EXPECT_NEAR(result.contributions[1].fraction, 1.0 - fraction, 1e-8);
 }
 
 TEST(Propagate, IntervalOfAProductIsTheLogNormalOne) {
   numerics::PropagationOptions options;
-  options.draws = 200000;
+  options.random_samples = 200000;
   const auto result = numerics::propagate(inputs, {{"product", product}}, options)[0];
   const double spread = std::hypot(0.05, 2.0 * 0.08);
   // Standard error of a 97.5 % quantile of n normal draws: sqrt(p(1-p)/n)/density.
-  const double error = std::sqrt(0.025 * 0.975 / options.draws) / 0.0584 * spread;
+  const double error = std::sqrt(0.025 * 0.975 / options.random_samples) / 0.0584 * spread;
   EXPECT_NEAR(std::log(result.lower / result.value), -z * spread, 4.0 * error);
   EXPECT_NEAR(std::log(result.upper / result.value), z * spread, 4.0 * error);
 }
@@ -71,7 +71,7 @@ TEST(Propagate, CarriesAReciprocalThroughItsPole) {
   // g = x - 1, x log-normal about 1.1: 1/g has a pole at x = 1, beyond it lies P(ln x < 0).
   const auto difference = [](Point x) { return x[0] - 1.0; };
   numerics::PropagationOptions options;
-  options.draws = 100000;
+  options.random_samples = 100000;
   const auto result =
       numerics::propagate({{"x", 1.1, 0.11}}, {{"ratio", difference, true}}, options)[0];
   EXPECT_NEAR(result.value, 10.0, 1e-12);
@@ -104,10 +104,10 @@ TEST(Propagate, SharesAddToOneWithSmallOnesLeftOut) {
       many, {{"sum", [](Point x) { return std::accumulate(x.begin(), x.end(), 0.0); }}})[0];
   double sum = 0.0;
   for (std::size_t i = 0; i < result.contributions.size(); ++i) {
-    EXPECT_GE(result.contributions[i].share, 0.01);
-    sum += result.contributions[i].share;
+    EXPECT_GE(result.contributions[i].fraction, 0.01);
+    sum += result.contributions[i].fraction;
     if (i == 0) continue;
-    EXPECT_LE(result.contributions[i].share, result.contributions[i - 1].share);
+    EXPECT_LE(result.contributions[i].fraction, result.contributions[i - 1].fraction);
   }
   EXPECT_LT(result.contributions.size(), many.size());
   EXPECT_LE(sum, 1.0 + 1e-12);
@@ -145,7 +145,7 @@ TEST(Propagate, NamesTheInputItRefuses) {
   EXPECT_THAT(reference::Call([&] {
                 numerics::propagate({{"x", 1.0, 0.1}}, targets, {99, 1});
               }),
-              ThrowsMessage<InvalidInput>(HasSubstr("at least 100 draws")));
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 100 samples")));
 }
 
 }  // namespace

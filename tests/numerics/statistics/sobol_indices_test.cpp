@@ -14,24 +14,24 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 // T. Ishigami and T. Homma, ISUMA 1990: inputs uniform over (-pi, pi).
-double ishigami(const std::vector<double>& shares) {
-  const auto x = [&](std::size_t i) { return pi * (2.0 * shares[i] - 1.0); };
+double ishigami(const std::vector<double>& fractions) {
+  const auto x = [&](std::size_t i) { return pi * (2.0 * fractions[i] - 1.0); };
   return std::sin(x(0)) + 7.0 * std::pow(std::sin(x(1)), 2) +
          0.1 * std::pow(x(2), 4) * std::sin(x(0));
 }
 
 // Sobol' g-function: product of (|4 x - 2| + a)/(1 + a).
-double g_function(const std::vector<double>& shares, const std::vector<double>& a) {
+double g_function(const std::vector<double>& fractions, const std::vector<double>& a) {
   double product = 1.0;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    product *= (std::abs(4.0 * shares[i] - 2.0) + a[i]) / (1.0 + a[i]);
+    product *= (std::abs(4.0 * fractions[i] - 2.0) + a[i]) / (1.0 + a[i]);
   }
   return product;
 }
 
-numerics::ShareFunction scalar(std::function<double(const std::vector<double>&)> function) {
-  return [function](const std::vector<double>& shares, Eigen::VectorXd& out) {
-    out[0] = function(shares);
+numerics::QuantileFunction scalar(std::function<double(const std::vector<double>&)> function) {
+  return [function](const std::vector<double>& fractions, Eigen::VectorXd& out) {
+    out[0] = function(fractions);
   };
 }
 
@@ -59,13 +59,13 @@ TEST(SobolIndices, AgreeWithTheIshigamiFunctionsToOnePerCent) {
 TEST(SobolIndices, OfASumAreTheTermsShares) {
   // c_i x_i with x_i uniform: variance c_i^2/12 each, nothing in common.
   const std::vector<double> c{1.0, -2.0, 3.0, 0.0};
-  const auto result = numerics::sobol_indices(4, 1, scalar([&](const std::vector<double>& shares) {
-                                                double sum = 1e6;
-                                                for (std::size_t i = 0; i < 4; ++i)
-                                                  sum += c[i] * shares[i];
-                                                return sum;
-                                              }),
-                                              {.points = 256});
+  const auto result =
+      numerics::sobol_indices(4, 1, scalar([&](const std::vector<double>& fractions) {
+                                double sum = 1e6;
+                                for (std::size_t i = 0; i < 4; ++i) sum += c[i] * fractions[i];
+                                return sum;
+                              }),
+                              {.points = 256});
   for (std::size_t i = 0; i < 4; ++i) {
     const numerics::InputIndices& input = result.outputs[0].inputs[i];
     EXPECT_NEAR(input.first_order.value, c[i] * c[i] / 14.0, 2e-3);
@@ -78,7 +78,8 @@ TEST(SobolIndices, OfASumAreTheTermsShares) {
 TEST(SobolIndices, OfTheGFunctionAreItsClosedForms) {
   const std::vector<double> a{0.0, 1.0, 4.5, 9.0, 99.0, 99.0};
   const auto result = numerics::sobol_indices(
-      6, 1, scalar([&](const auto& shares) { return g_function(shares, a); }), {.points = 2048});
+      6, 1, scalar([&](const auto& fractions) { return g_function(fractions, a); }),
+      {.points = 2048});
   std::vector<double> partial;
   double all = 1.0;
   for (const double one : a) {
@@ -95,7 +96,7 @@ TEST(SobolIndices, OfTheGFunctionAreItsClosedForms) {
 
 TEST(SobolIndices, HaveIntervalsThatHoldTheTruthAsOftenAsTheySay) {
   // x y with x, y uniform over (0, 1): V = 7/144, V_x = V_y = 1/48.
-  const auto product = scalar([](const auto& shares) { return shares[0] * shares[1]; });
+  const auto product = scalar([](const auto& fractions) { return fractions[0] * fractions[1]; });
   int within = 0;
   int all = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
@@ -125,8 +126,8 @@ TEST(SobolIndices, AreTheSameForAnyThreadCountAndAnotherForAnotherSeed) {
 TEST(SobolIndices, OfSeveralOutputsAreThoseOfEachAlone) {
   const auto both =
       numerics::sobol_indices(3, 2,
-                              [](const std::vector<double>& shares, Eigen::VectorXd& out) {
-                                out << ishigami(shares), shares[2];
+                              [](const std::vector<double>& fractions, Eigen::VectorXd& out) {
+                                out << ishigami(fractions), fractions[2];
                               },
                               {.points = 64});
   const auto alone = numerics::sobol_indices(3, 1, scalar(ishigami), {.points = 64});
@@ -178,7 +179,7 @@ std::string message_of(Call call) {
 
 TEST(SobolIndices, SayWhatIsWrong) {
   using testing::HasSubstr;
-  const auto fine = scalar([](const auto& shares) { return shares[0]; });
+  const auto fine = scalar([](const auto& fractions) { return fractions[0]; });
   const auto refusal = [&](std::size_t inputs, std::size_t outputs,
                            const numerics::SobolOptions& options) {
     return message_of<InvalidInput>(
@@ -200,12 +201,12 @@ TEST(SobolIndices, SayWhatIsWrong) {
                                         [](const auto&, Eigen::VectorXd& out) { out.resize(1); });
               }),
               HasSubstr("expected 2 outputs of the function, found 1"));
-  const auto nowhere = scalar([](const std::vector<double>& shares) {
-    return shares[1] > 0.9 ? std::numeric_limits<double>::quiet_NaN() : shares[0];
+  const auto nowhere = scalar([](const std::vector<double>& fractions) {
+    return fractions[1] > 0.9 ? std::numeric_limits<double>::quiet_NaN() : fractions[0];
   });
   EXPECT_THAT(
       message_of<NumericalFailure>([&] { numerics::sobol_indices(2, 1, nowhere, {.threads = 2}); }),
-      HasSubstr("is not finite where the inputs stand at the shares 0."));
+      HasSubstr("is not finite where the inputs stand at the fractions 0."));
 }
 
 }  // namespace

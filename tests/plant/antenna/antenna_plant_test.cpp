@@ -47,9 +47,9 @@ double response_difference(const PlantResponse& one, const PlantResponse& other)
   };
   double difference = 0.0;
   for (const auto member : {&PlantResponse::tachometer_command, &PlantResponse::torque_command,
-                            &PlantResponse::encoder_command, &PlantResponse::beam_command,
+                            &PlantResponse::encoder_command, &PlantResponse::boresight_command,
                             &PlantResponse::tachometer_wind, &PlantResponse::torque_wind,
-                            &PlantResponse::encoder_wind, &PlantResponse::beam_wind}) {
+                            &PlantResponse::encoder_wind, &PlantResponse::boresight_wind}) {
     difference = std::max(difference, worst(one.*member, other.*member));
   }
   return difference;
@@ -217,7 +217,7 @@ TEST(AntennaPlant, DoesNotDependOnTheUnitOfTorque) {
   expected.torque_command *= unit;
   expected.tachometer_wind /= unit;
   expected.encoder_wind /= unit;
-  expected.beam_wind /= unit;
+  expected.boresight_wind /= unit;
   EXPECT_LT(response_difference(other, expected), 1e-12);
 }
 
@@ -235,11 +235,11 @@ TEST(AntennaPlant, DoesNotDependOnTheUnitOfTime) {
   auto expected = plant_response(plant, frequencies());
   expected.torque_command *= rate;  // N m per rad/min
   expected.encoder_command /= rate;
-  expected.beam_command /= rate;
+  expected.boresight_command /= rate;
   expected.tachometer_wind /= rate;
   expected.torque_wind *= 1.0;
   expected.encoder_wind /= rate * rate;
-  expected.beam_wind /= rate * rate;
+  expected.boresight_wind /= rate * rate;
   EXPECT_LT(response_difference(other, expected), 1e-12);
 }
 

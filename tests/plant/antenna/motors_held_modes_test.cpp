@@ -89,12 +89,12 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
       EXPECT_LT(held[i].frequency, antenna.modes[i].frequency);
       EXPECT_GT(held[i + 1].frequency, antenna.modes[i].frequency);
     }
-    double gear_shares = 0.0;
+    double gear_fractions = 0.0;
     for (const auto& vibration : held) {
       const double s = std::pow(two_pi * vibration.frequency, 2);
-      gear_shares += vibration.gear_share;
+      gear_fractions += vibration.gear_fraction;
       EXPECT_NEAR(
-          vibration.gear_share,
+          vibration.gear_fraction,
           vibration.inertia_fraction * antenna_inertia(structure) * s / structure.gear_stiffness,
           1e-9);
       double sum = structure.gear_stiffness - s * structure.bull_gear_inertia;
@@ -106,7 +106,7 @@ TEST(MotorsHeldModes, AreTheRootsOfTheSecularEquation) {
       }
       EXPECT_LT(std::abs(sum), 1e-8 * largest);
     }
-    EXPECT_NEAR(gear_shares, 1.0, 1e-9);
+    EXPECT_NEAR(gear_fractions, 1.0, 1e-9);
   }
 }
 

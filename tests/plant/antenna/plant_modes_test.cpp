@@ -165,7 +165,7 @@ AntennaPlant on_gear_spring(double oil_over_gear) {
   return plant;
 }
 
-TEST(OilShare, IsTheOilSpringsShareOfTheElasticEnergy) {
+TEST(OilFraction, IsTheOilSpringsShareOfTheElasticEnergy) {
   for (const double stiffer : {0.1, 1.0, 10.0}) {
     const AntennaPlant plant = on_gear_spring(stiffer);
     const double k = plant.drive.oil_stiffness, kg = plant.structure.gear_stiffness;
@@ -177,14 +177,14 @@ TEST(OilShare, IsTheOilSpringsShareOfTheElasticEnergy) {
       const double motor =
           kg - plant.structure.bull_gear_inertia * std::pow(two_pi * mode.frequency, 2);
       const double oil = k * motor * motor, gear = kg * std::pow(motor - kg, 2);
-      EXPECT_NEAR(mode.oil_share, oil / (oil + gear), 1e-8) << stiffer;
-      EXPECT_NEAR(mode.gear_share, gear / (oil + gear), 1e-8) << stiffer;
+      EXPECT_NEAR(mode.oil_fraction, oil / (oil + gear), 1e-8) << stiffer;
+      EXPECT_NEAR(mode.gear_fraction, gear / (oil + gear), 1e-8) << stiffer;
     }
     EXPECT_EQ(modes, 2);
   }
 }
 
-TEST(OilShare, IsHowTheFrequencyFollowsTheOil) {
+TEST(OilFraction, IsHowTheFrequencyFollowsTheOil) {
   for (const double friction : {0.0, 3.0, 60.0}) {
     AntennaPlant plant = reference::antenna(24.0);
     plant.drive.viscous_friction = friction;
@@ -196,21 +196,21 @@ TEST(OilShare, IsHowTheFrequencyFollowsTheOil) {
       return hydraulic_mode(plant_modes(other)).frequency;
     };
     const double slope = std::log(at(1.0 + step) / at(1.0 - step)) / step;
-    EXPECT_NEAR(own.oil_share, slope, 1e-6) << friction;
+    EXPECT_NEAR(own.oil_fraction, slope, 1e-6) << friction;
     const auto on_gear = [&](double factor) {
       AntennaPlant other = plant;
       other.structure.gear_stiffness *= factor;
       return hydraulic_mode(plant_modes(other)).frequency;
     };
-    EXPECT_NEAR(own.gear_share, std::log(on_gear(1.0 + step) / on_gear(1.0 - step)) / step, 1e-6)
+    EXPECT_NEAR(own.gear_fraction, std::log(on_gear(1.0 + step) / on_gear(1.0 - step)) / step, 1e-6)
         << friction;
   }
 }
 
 TEST(ModeOfOil, IsAnotherThanTheHydraulicOneOnASoftGearSpring) {
   const auto soft = plant_modes(on_gear_spring(100.0));
-  EXPECT_LT(hydraulic_mode(soft).oil_share, 0.1);
-  EXPECT_GT(mode_of_oil(soft).oil_share, 0.9);
+  EXPECT_LT(hydraulic_mode(soft).oil_fraction, 0.1);
+  EXPECT_GT(mode_of_oil(soft).oil_fraction, 0.9);
   EXPECT_GT(mode_of_oil(soft).frequency, 2.0 * hydraulic_mode(soft).frequency);
   const auto stiff = plant_modes(on_gear_spring(0.1));
   EXPECT_EQ(mode_of_oil(stiff).frequency, hydraulic_mode(stiff).frequency);

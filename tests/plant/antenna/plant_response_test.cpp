@@ -21,7 +21,7 @@ using Complex = std::complex<double>;
 Eigen::Matrix<Complex, 4, 2> at(const PlantResponse& r, Eigen::Index i) {
   Eigen::Matrix<Complex, 4, 2> response;
   response << r.tachometer_command[i], r.tachometer_wind[i], r.torque_command[i], r.torque_wind[i],
-      r.encoder_command[i], r.encoder_wind[i], r.beam_command[i], r.beam_wind[i];
+      r.encoder_command[i], r.encoder_wind[i], r.boresight_command[i], r.boresight_wind[i];
   return response;
 }
 

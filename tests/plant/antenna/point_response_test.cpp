@@ -28,9 +28,11 @@ TEST(PointResponse, IsThatOnAGridPointByPoint) {
     const PointResponse response(plant);
     for (Eigen::Index i = 0; i < w.size(); ++i) {
       const ResponsePoint found = response(w[i]), expected = point(grid, i);
-      EXPECT_LT(reference::relative_error(found.beam_command, expected.beam_command), 1e-10)
+      EXPECT_LT(reference::relative_error(found.boresight_command, expected.boresight_command),
+                1e-10)
           << w[i];
-      EXPECT_LT(reference::relative_error(found.beam_wind, expected.beam_wind), 1e-10) << w[i];
+      EXPECT_LT(reference::relative_error(found.boresight_wind, expected.boresight_wind), 1e-10)
+          << w[i];
       EXPECT_LT(reference::relative_error(found.torque_wind, expected.torque_wind), 1e-10) << w[i];
       EXPECT_LT(reference::relative_error(found.encoder_command, expected.encoder_command), 1e-10)
           << w[i];
@@ -45,8 +47,8 @@ TEST(PointResponse, HasTheSameBitsInRegistersOfEveryWidth) {
     for (const std::size_t lanes : {2U, 4U}) {
       const numerics::NarrowRegisters narrow(lanes);
       const ResponsePoint found = response(w);
-      EXPECT_EQ(found.beam_command, expected.beam_command);
-      EXPECT_EQ(found.beam_wind, expected.beam_wind);
+      EXPECT_EQ(found.boresight_command, expected.boresight_command);
+      EXPECT_EQ(found.boresight_wind, expected.boresight_wind);
       EXPECT_EQ(found.tachometer_command, expected.tachometer_command);
       EXPECT_EQ(found.torque_wind, expected.torque_wind);
     }

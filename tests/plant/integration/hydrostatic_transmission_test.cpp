@@ -109,7 +109,7 @@ TEST(HydrostaticTransmission, TakesInWhatItsOilIsCompressedBy) {
   EXPECT_LT(worst, 1e-9 * largest);
 }
 
-TEST(HydrostaticTransmission, KeepsToTheLawOfItsStateBetweenItsEvents) {
+TEST(HydrostaticTransmission, KeepsToTheEquationsOfItsStateBetweenItsEvents) {
   Transmission system;
   OdeIntegrator integrator = integrator_of(system);
   std::array<bool, 6> seen{};

@@ -152,16 +152,16 @@ TEST(OdeIntegrator, TriesASmallerStepWhereTheSystemIsNotDefined) {
 
 TEST(OdeIntegrator, StopsAtTheCapOfSteps) {
   OdeOptions options;
-  options.most_steps = 50;
+  options.max_steps = 50;
   const Linear system = oscillator(1.0);
   OdeIntegrator integrator(system, 0.0, vector({1.0, 0.0}), options);
   EXPECT_THAT(reference::Call([&] { integrator.advance(1000.0); }),
               ThrowsMessage<NumericalFailure>(
-                  AllOf(HasSubstr("mxstep steps taken"), HasSubstr("raise most_steps"))));
+                  AllOf(HasSubstr("mxstep steps taken"), HasSubstr("raise max_steps"))));
   EXPECT_EQ(integrator.time(), 0.0);
   // For each advance anew.
   for (int k = 1; k <= 20; ++k) integrator.advance(0.5 * k);
-  EXPECT_GT(integrator.statistics().steps, options.most_steps);
+  EXPECT_GT(integrator.statistics().steps, options.max_steps);
 }
 
 TEST(OdeIntegrator, SaysThatNoStepIsSmallEnough) {
@@ -231,7 +231,7 @@ TEST(OdeIntegrator, RefusesOptionsThatDoNotFit) {
   refusal([](OdeOptions& o) { o.absolute_tolerance.setOnes(3); }, "or 2, found 3");
   refusal([](OdeOptions& o) { o.highest_order = 0; }, "highest_order");
   refusal([](OdeOptions& o) { o.longest_step = 0.0; }, "longest_step");
-  refusal([](OdeOptions& o) { o.most_steps = 0; }, "most_steps");
+  refusal([](OdeOptions& o) { o.max_steps = 0; }, "most_steps");
   refusal([](OdeOptions& o) { o.iteration = OdeIteration::fixed_point; }, "found fixed_point");
   refusal([](OdeOptions& o) { o.initial_sensitivities.setZero(1, 2); }, "2 x 2, found 1 x 2");
   refusal([](OdeOptions& o) { o.initial_sensitivities.setConstant(2, 2, nan); }, "finite");

@@ -16,7 +16,8 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-void expect_derivative(const std::function<numerics::Slope(double)>& f, double x, double step) {
+void expect_derivative(const std::function<numerics::ValueAndDerivative(double)>& f, double x,
+                       double step) {
   const double difference = (f(x + step).value - f(x - step).value) / (2.0 * step);
   EXPECT_NEAR(f(x).derivative, difference, 1e-6 * std::abs(difference)) << "at " << x;
 }

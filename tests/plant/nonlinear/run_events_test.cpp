@@ -48,7 +48,7 @@ TEST_F(RunEventsTest, OfRestAreNone) {
                             &events.contact_lost, &events.below_makeup, &events.below_zero}) {
     EXPECT_EQ(event->samples, 0);
     EXPECT_FALSE(event->first);
-    EXPECT_EQ(event->share, 0.0);
+    EXPECT_EQ(event->fraction, 0.0);
   }
   EXPECT_EQ(events.contact_losses, 0);
   EXPECT_DOUBLE_EQ(events.lowest_pressure.value_or(0.0), 5e6);
@@ -117,7 +117,7 @@ TEST_F(RunEventsTest, LimitsAreCountedFromTheirFirstSample) {
   const auto events = events_of(antenna, run, commands, interval);
   EXPECT_EQ(events.stroke_limit.samples, 50);
   EXPECT_NEAR(events.stroke_limit.first.value_or(0.0), 3.0, 1e-9);
-  EXPECT_DOUBLE_EQ(events.stroke_limit.share, 0.05);
+  EXPECT_DOUBLE_EQ(events.stroke_limit.fraction, 0.05);
   EXPECT_EQ(events.slew_limit.samples, 2);  // the jumps there and back
   EXPECT_EQ(events.command_limit.samples, 250);
   EXPECT_EQ(events.contact_losses, 2);

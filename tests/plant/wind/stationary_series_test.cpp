@@ -153,7 +153,7 @@ TEST(StationarySeries, OfHalfTheSampleTimeHasTheSameContentBelow) {
     const Band band{0.02, 0.5};
     const auto power = [&](const Eigen::VectorXd& x) {
       return (reference::line_powers(x, !periodic) *
-              reference::shares(x.size() / 2, 1.0 / 256.0, band))
+              reference::fractions(x.size() / 2, 1.0 / 256.0, band))
           .sum();
     };
     EXPECT_NEAR(power(fine) / power(coarse), 1.0, periodic ? 1e-12 : 1e-3);

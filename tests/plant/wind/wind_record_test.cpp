@@ -96,7 +96,7 @@ TEST(WindRecord, OfGustsHasTheSpectrumOfTheTorque) {
             return wind_torque_spectrum(site, model, 10.0, f, WindTorquePart::uniform);
           },
           band);
-      const double found = (powers * reference::shares(1800, 1.0 / duration, band)).sum();
+      const double found = (powers * reference::fractions(1800, 1.0 / duration, band)).sum();
       EXPECT_NEAR(found / expected, 1.0, 0.06) << to_string(model) << " " << band.low;
     }
   }

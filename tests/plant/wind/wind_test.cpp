@@ -121,20 +121,20 @@ TEST(CoherenceAverages, AreThoseOfRandomPointPairs) {
     const double radius = std::sqrt(random.uniform(0.0, 1.0));
     return std::polar(radius, random.uniform(0.0, two_pi));
   };
-  constexpr int draws = 400000;
+  constexpr int random_samples = 400000;
   const double a = 2.5;
   double uniform = 0.0, uniform_square = 0.0, gradient = 0.0, gradient_square = 0.0;
-  for (int i = 0; i < draws; ++i) {
+  for (int i = 0; i < random_samples; ++i) {
     const auto p = point(), q = point();
     const double coherence = std::exp(-a * std::abs(p - q));
     const double moment = p.imag() * q.imag() * coherence;
-    uniform += coherence / draws;
-    uniform_square += coherence * coherence / draws;
-    gradient += moment / draws;
-    gradient_square += moment * moment / draws;
+    uniform += coherence / random_samples;
+    uniform_square += coherence * coherence / random_samples;
+    gradient += moment / random_samples;
+    gradient_square += moment * moment / random_samples;
   }
   const auto error = [&](double mean, double square) {
-    return std::sqrt((square - mean * mean) / draws);
+    return std::sqrt((square - mean * mean) / random_samples);
   };
   const auto found = coherence_averages(a);
   EXPECT_NEAR(found.uniform, uniform, 4.0 * error(uniform, uniform_square));

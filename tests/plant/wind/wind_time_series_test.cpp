@@ -44,7 +44,7 @@ Eigen::ArrayXd mean_line_powers(const StationarySeries& series, std::uint64_t se
 double worst_band(WindModel model, const Eigen::ArrayXd& powers, double first, double last) {
   double worst = 0.0;
   for (const Band& band : reference::third_octaves(first, last)) {
-    const double found = (powers * reference::shares(powers.size(), 1.0 / duration, band)).sum();
+    const double found = (powers * reference::fractions(powers.size(), 1.0 / duration, band)).sum();
     const double expected =
         reference::integral([&](double f) { return target(model, f); }, band, 20);
     worst = std::max(worst, std::abs(found / expected - 1.0));
@@ -71,11 +71,11 @@ TEST_P(ThirdOctaves, OfFiftySeriesScatterAsTheirLinesMake) {
   const WindModel model = GetParam();
   const Eigen::ArrayXd powers = mean_line_powers(torque(model, 0.5, true), 50, false);
   for (const Band& band : reference::third_octaves(0.001, 0.8)) {
-    const Eigen::ArrayXd shares = reference::shares(powers.size(), 1.0 / duration, band);
+    const Eigen::ArrayXd fractions = reference::fractions(powers.size(), 1.0 / duration, band);
     const double expected =
         reference::integral([&](double f) { return target(model, f); }, band, 20);
-    const double lines = std::pow(shares.sum(), 2) / shares.square().sum();
-    EXPECT_NEAR((powers * shares).sum() / expected, 1.0, 0.01 + 3.5 / std::sqrt(50.0 * lines));
+    const double lines = std::pow(fractions.sum(), 2) / fractions.square().sum();
+    EXPECT_NEAR((powers * fractions).sum() / expected, 1.0, 0.01 + 3.5 / std::sqrt(50.0 * lines));
   }
 }
 
@@ -85,14 +85,14 @@ TEST_P(ThirdOctaves, AddUpToTheVariance) {
   const StationarySeries series = torque(model, 0.5, true);
   const Eigen::ArrayXd powers = mean_line_powers(series, seeds, false);
   // Within 3 standard errors over [1/T, fs/2]; the first line's cell begins at half of that.
-  const Eigen::ArrayXd shares =
-      reference::shares(powers.size(), 1.0 / duration, {1.0 / duration, 1.0});
+  const Eigen::ArrayXd fractions =
+      reference::fractions(powers.size(), 1.0 / duration, {1.0 / duration, 1.0});
   const double expected =
       reference::integral([&](double f) { return target(model, f); }, {1.0 / duration, 1.0}, 400);
-  const double error = std::sqrt((series.line_powers() * shares).square().sum() / seeds);
+  const double error = std::sqrt((series.line_powers() * fractions).square().sum() / seeds);
   EXPECT_LT(error, 0.02 * expected);
-  EXPECT_NEAR((powers * shares).sum(), expected, 3.0 * error);
-  EXPECT_NEAR((series.line_powers() * shares).sum() / expected, 1.0, 1e-3);
+  EXPECT_NEAR((powers * fractions).sum(), expected, 3.0 * error);
+  EXPECT_NEAR((series.line_powers() * fractions).sum() / expected, 1.0, 1e-3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Models, ThirdOctaves, testing::ValuesIn(models),

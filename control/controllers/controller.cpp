@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <boresight/control/controllers/controller.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+#include <boresight/plant/linear/transfer_function.hpp>
+
+namespace boresight::control {
+namespace {
+
+using Complex = std::complex<double>;
+
+// The blocks of one path with where their gains begin.
+struct PlacedBlock {
+  const LoopBlock* block;
+  const double* gains;
+};
+
+std::vector<PlacedBlock> blocks_of(const Controller& controller, LoopPath path) {
+  std::vector<PlacedBlock> placed;
+  const double* gains = controller.gains.data();
+  for (const LoopBlock& block : controller.structure.blocks()) {
+    if (block.path == path) placed.push_back({&block, gains});
+    gains += block.gains.size();
+  }
+  return placed;
+}
+
+// Numerator and denominator, lowest power first.
+struct Polynomials {
+  std::vector<double> numerator, denominator;
+};
+
+Polynomials polynomials(const PlacedBlock& placed) {
+  const double* g = placed.gains;
+  switch (placed.block->kind) {
+    case BlockKind::gain:
+      return {{g[0]}, {1.0}};
+    case BlockKind::integral:
+      return {{g[0], 1.0}, {0.0, 1.0}};
+    case BlockKind::lag:
+      return {{1.0}, {1.0, 1.0 / g[0]}};
+    case BlockKind::lead:
+      return {{1.0, 1.0 / g[0]}, {1.0}};
+    case BlockKind::washout:
+      return {{0.0, 1.0}, {g[0], 1.0}};
+    case BlockKind::notch:
+      return {{g[0] * g[0], 2.0 * g[1] * g[0], 1.0}, {g[0] * g[0], 2.0 * g[2] * g[0], 1.0}};
+  }
+  throw InvalidInput("controller: not a kind of block");
+}
+
+// One path as a chain of first- and second-order sections from `input` to `output`: the gain in the
+// first section, each lead on a lag of its own.
+std::vector<plant::StateSpace> chain(const Controller& controller, LoopPath path,
+                                     const std::string& input, const std::string& output) {
+  std::vector<PlacedBlock> leads, rest;
+  double gain = 1.0;
+  for (const PlacedBlock& placed : blocks_of(controller, path)) {
+    if (placed.block->kind == BlockKind::gain) {
+      gain = placed.gains[0];
+    } else {
+      (placed.block->kind == BlockKind::lead ? leads : rest).push_back(placed);
+    }
+  }
+  const std::string name(to_string(path));
+  std::vector<plant::StateSpace> sections;
+  std::string signal = input;
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    Polynomials section = polynomials(rest[i]);
+    if (rest[i].block->kind == BlockKind::lag && !leads.empty()) {
+      section.numerator = polynomials(leads.back()).numerator;
+      leads.pop_back();
+    }
+    if (i == 0) {
+      for (double& coefficient : section.numerator) coefficient *= gain;
+    }
+    const std::string next = i + 1 == rest.size() ? output : fmt::format("{}_path_{}", name, i + 1);
+    sections.push_back(
+        plant::rational(section.numerator, section.denominator, signal, next,
+                        fmt::format("{}_{}", name, rest[i].block->gains.front().symbol)));
+    signal = next;
+  }
+  if (rest.empty()) {
+    sections.push_back(
+        plant::static_gain(Eigen::MatrixXd::Constant(1, 1, gain), {input}, {output}));
+  }
+  return sections;
+}
+
+void append(std::vector<plant::StateSpace>& parts, std::vector<plant::StateSpace> more) {
+  std::ranges::move(more, std::back_inserter(parts));
+}
+
+plant::StateSpace difference(const std::string& first, const std::string& second,
+                             const std::string& output) {
+  return plant::static_gain(Eigen::RowVector2d{1.0, -1.0}, {first, second}, {output});
+}
+
+// From rate error and, with a pressure path, motor torque to the valve demand.
+void append_rate_controller(std::vector<plant::StateSpace>& parts, const Controller& controller) {
+  const bool pressure = controller.structure.has(LoopPath::pressure);
+  append(parts, chain(controller, LoopPath::rate, "rate_error",
+                      pressure ? "rate_demand" : "valve_demand"));
+  if (!pressure) return;
+  append(parts, chain(controller, LoopPath::pressure, "motor_torque", "pressure_demand"));
+  parts.push_back(difference("rate_demand", "pressure_demand", "valve_demand"));
+}
+
+}  // namespace
+
+void validate(const Controller& controller) {
+  const auto& descriptions = controller.structure.gains();
+  if (controller.gains.size() != descriptions.size()) {
+    throw InvalidInput(fmt::format("controller: expected {} gains for {}, found {}",
+                                   descriptions.size(), controller.structure.name(),
+                                   controller.gains.size()));
+  }
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    if (!(controller.gains[i] > 0.0) || !std::isfinite(controller.gains[i])) {
+      throw InvalidInput(fmt::format("controller: expected a positive finite {}, found {}",
+                                     descriptions[i].name, controller.gains[i]));
+    }
+  }
+}
+
+double gain(const Controller& controller, std::string_view symbol) {
+  const auto& descriptions = controller.structure.gains();
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    if (descriptions[i].symbol == symbol) return controller.gains[i];
+  }
+  throw InvalidInput(
+      fmt::format("controller: {} has no gain '{}'", controller.structure.name(), symbol));
+}
+
+CompensatorResponse compensator_response(const Controller& controller, double angular_frequency) {
+  const double w = angular_frequency;
+  CompensatorResponse response;
+  response.rate = response.position = 1.0;
+  response.pressure = controller.structure.has(LoopPath::pressure) ? 1.0 : 0.0;
+  response.compliance = controller.structure.has(LoopPath::compliance) ? 1.0 : 0.0;
+  std::size_t k = 0;
+  for (const LoopBlock& block : controller.structure.blocks()) {
+    Complex& compensator = block.path == LoopPath::rate       ? response.rate
+                           : block.path == LoopPath::pressure ? response.pressure
+                           : block.path == LoopPath::position ? response.position
+                                                              : response.compliance;
+    const double value = controller.gains[k];
+    // value/(s + value) and s/(s + value) at s = j w, with one division for both
+    const double scale = 1.0 / (value * value + w * w);
+    const Complex low{value * value * scale, -value * w * scale};
+    const Complex high{w * w * scale, value * w * scale};
+    switch (block.kind) {
+      case BlockKind::gain:
+        compensator *= value;
+        response.by_gain[k] = 1.0;
+        break;
+      case BlockKind::integral:
+        compensator *= Complex{1.0, -value / w};
+        response.by_gain[k] = low;
+        break;
+      case BlockKind::lag:
+        compensator *= low;
+        response.by_gain[k] = high;
+        break;
+      case BlockKind::lead:
+        compensator *= Complex{1.0, w / value};
+        response.by_gain[k] = -high;
+        break;
+      case BlockKind::washout:
+        compensator *= high;
+        response.by_gain[k] = -low;
+        break;
+      case BlockKind::notch: {
+        const double square = value * value - w * w;
+        const double zero = controller.gains[k + 1], pole = controller.gains[k + 2];
+        const Complex above{square, 2.0 * zero * value * w};
+        const Complex below{square, 2.0 * pole * value * w};
+        compensator *= above / below;
+        const auto by_frequency = [&](double damping) {
+          return Complex{2.0 * value * value, 2.0 * damping * value * w};
+        };
+        response.by_gain[k] = by_frequency(zero) / above - by_frequency(pole) / below;
+        response.by_gain[k + 1] = Complex{0.0, above.imag()} / above;
+        response.by_gain[k + 2] = -Complex{0.0, below.imag()} / below;
+        break;
+      }
+    }
+    k += block.gains.size();
+  }
+  return response;
+}
+
+plant::StateSpace to_state_space(const Controller& controller) {
+  validate(controller);
+  const bool compliance = controller.structure.has(LoopPath::compliance);
+  std::vector<plant::StateSpace> parts;
+  std::vector<std::string> inputs{"tachometer", "encoder", "rate_disturbance"};
+  if (compliance || controller.structure.has(LoopPath::pressure))
+    inputs.emplace_back("motor_torque");
+  if (compliance) {
+    append(parts, chain(controller, LoopPath::compliance, "motor_torque", "bending"));
+    parts.push_back(difference("encoder", "bending", "corrected_angle"));
+  }
+  append(parts, chain(controller, LoopPath::position, compliance ? "corrected_angle" : "encoder",
+                      "position_output"));
+  parts.push_back(difference("rate_disturbance", "position_output", "rate_command"));
+  parts.push_back(difference("rate_command", "tachometer", "rate_error"));
+  append_rate_controller(parts, controller);
+  return plant::connect(parts, inputs, {"valve_demand", "rate_command"});
+}
+
+plant::StateSpace rate_loop_controller(const Controller& controller) {
+  validate(controller);
+  std::vector<plant::StateSpace> parts{
+      plant::static_gain(Eigen::MatrixXd::Constant(1, 1, -1.0), {"tachometer"}, {"rate_error"})};
+  append_rate_controller(parts, controller);
+  std::vector<std::string> inputs{"tachometer"};
+  if (controller.structure.has(LoopPath::pressure)) inputs.emplace_back("motor_torque");
+  return plant::connect(parts, inputs, {"valve_demand"});
+}
+
+}  // namespace boresight::control

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <string_view>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <boresight/control/controllers/loop_structure.hpp>
+#include <boresight/plant/linear/state_space.hpp>
+
+namespace boresight::control {
+
+/// One controller: a structure with its gains, each positive, in the order of gain_descriptions.
+struct Controller {
+  LoopStructure structure;
+  std::vector<double> gains;
+};
+
+/// @throws InvalidInput for the wrong number of gains or one that is not positive and finite.
+void validate(const Controller& controller);
+
+/// The gain with that symbol. @throws InvalidInput if the structure has none.
+double gain(const Controller& controller, std::string_view symbol);
+
+/// Compensators at s = j w, and the logarithmic derivative of each compensator with respect to each
+/// of its gains (d ln X/d ln g).
+struct CompensatorResponse {
+  std::complex<double> rate;        // R, rad/s of valve command per rad/s of rate error
+  std::complex<double> pressure;    // Q, rad/s of valve command per N m; 0 where absent
+  std::complex<double> position;    // P, rad/s of rate command per rad
+  std::complex<double> compliance;  // C, rad per N m; 0 where absent
+  std::array<std::complex<double>, max_gains> by_gain{};
+};
+CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
+
+/// State space of the controller. Inputs: tachometer (rad/s), encoder (rad), motor_torque (N m;
+/// only if the pressure or compliance path feeds it back), rate_disturbance (rad/s, added to the
+/// rate command). Outputs: valve_demand (rad/s, before the dead time), rate_command.
+plant::StateSpace to_state_space(const Controller& controller);
+
+/// The same with the position loop open: inputs tachometer, motor_torque (only with a pressure
+/// path); output valve_demand.
+plant::StateSpace rate_loop_controller(const Controller& controller);
+
+}  // namespace boresight::control

@@ -1,0 +1,67 @@
+#include <algorithm>
+#include <limits>
+
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/design/tuning/plant_evaluator.hpp>
+
+namespace boresight::design {
+
+double PlantEvaluation::worst_ratio() const {
+  if (!stable) return std::numeric_limits<double>::infinity();
+  return ratios.empty() ? 0.0 : std::ranges::max(ratios, {}, &NormalisedConstraint::ratio).ratio;
+}
+
+PlantEvaluator::PlantEvaluator(std::string name, const TrackingProblem& problem,
+                               const Constraints& goals, const WindTable& wind, double tolerance)
+    : name_(std::move(name)),
+      plant_(problem.plant),
+      delay_(problem.delay),
+      goals_(goals),
+      frequency_(analysis_grid(problem)),
+      evaluator_(make_adaptive_evaluator(problem, wind, tolerance)) {
+  if (goals.ask_for_gusts()) {
+    const auto& drive = problem.plant.drive;
+    mean_.torque =
+        plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
+    mean_.demand = drive.leakage_rate / drive.oil_stiffness * mean_.torque;
+    if (problem.climate.empty()) {
+      evaluator_.look_at_gusts(true);
+    } else {
+      TrackingProblem windy = problem;
+      windy.climate.clear();
+      gusts_.push_back(make_adaptive_evaluator(windy, WindTable(windy)));
+      gusts_.back().look_at({false, false, false});
+      gusts_.back().look_at_gusts(true);
+    }
+  }
+  if (goals.ask_for_margins()) {
+    channels_.push_back(control::make_channels(plant_, frequency_));
+  }
+}
+
+const PlantEvaluation& PlantEvaluator::evaluate(const control::Controller& controller,
+                                                bool with_gradients) {
+  plant_evaluation_.evaluation = evaluator_.evaluate(controller, with_gradients);
+  plant_evaluation_.stable = plant_evaluation_.evaluation.stable();
+  plant_evaluation_.ratios.clear();
+  if (!plant_evaluation_.stable) return plant_evaluation_;
+  auto& evaluation = plant_evaluation_.evaluation;
+  if (!gusts_.empty()) {
+    const auto gusts = gusts_.front().evaluate(controller, with_gradients);
+    evaluation.wind_demand_variance = gusts.wind_demand_variance;
+    evaluation.wind_torque_variance = gusts.wind_torque_variance;
+    evaluation.wind_demand_log_gradient = gusts.wind_demand_log_gradient;
+    evaluation.wind_torque_log_gradient = gusts.wind_torque_log_gradient;
+  }
+  append_normalised_constraints(evaluation, goals_, mean_, plant_evaluation_.ratios);
+  if (!channels_.empty()) {
+    append_margin_ratios(channels_.front(), delay_, controller, goals_, plant_evaluation_.ratios);
+  }
+  return plant_evaluation_;
+}
+
+bool PlantEvaluator::stable_by_eigenvalues(const control::Controller& controller) const {
+  return control::stability(plant_, controller, delay_, frequency_).stable();
+}
+
+}  // namespace boresight::design

@@ -176,7 +176,7 @@ Document slew_part(const TimeDomainSection& section) {
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
   const double error = section.options.tightest_budget;
-  const double amplitude = design::limit_cycle_limit(error);
+  const double amplitude = design::allowed_limit_cycle(error);
   const auto simulated = [](const Candidate& one) {
     return std::isfinite(one.result.wind.boresight_rms);
   };

@@ -77,7 +77,7 @@ std::string conclude_wind(const TimeDomainSection& section) {
 // Whether by that it is left out of a choice; a law may also be because a run did not end.
 bool has_limit_cycle_beyond(const std::vector<design::LimitCycleResult>& limit_cycles,
                             double error) {
-  return design::limit_cycle_amplitude(limit_cycles) > design::limit_cycle_limit(error);
+  return design::limit_cycle_amplitude(limit_cycles) > design::allowed_limit_cycle(error);
 }
 
 // What a law does that does not hold still within an rms error.

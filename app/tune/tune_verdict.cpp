@@ -216,7 +216,7 @@ std::string barred_by_limit_cycle(const TuneSection& section, const TunedControl
       continue;
     if (row->keeps(rms)) continue;
     any = true;
-    seen = seen && row->in_time->limit_cycle_seen;
+    seen = seen && row->in_time->limit_cycle_runs_complete;
   }
   if (!any) return "";
   return seen ? ": the controllers that meet it in wind limit-cycle beyond it"

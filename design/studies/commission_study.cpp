@@ -45,8 +45,8 @@ std::optional<double> limit_cycle_beyond_budget(const Mission& mission,
   options.wind_duration = 1.0;
   const auto run = run_in_time_domain(mission, problem, controller, options);
   if (!run || is_limit_cycle_free(run->limit_cycles, options.tightest_budget)) return std::nullopt;
-  return limit_cycle_seen(run->limit_cycles) ? limit_cycle_amplitude(run->limit_cycles)
-                                             : std::numeric_limits<double>::infinity();
+  return limit_cycle_runs_complete(run->limit_cycles) ? limit_cycle_amplitude(run->limit_cycles)
+                                                      : std::numeric_limits<double>::infinity();
 }
 
 // Places of the gains that act.

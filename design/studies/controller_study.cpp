@@ -28,7 +28,7 @@ ControllerInTime evaluated(const TimeDomainStudy::Candidate& run, double error) 
   return {.limit_cycle_free = is_limit_cycle_free(result.limit_cycles, error),
           .limit_cycles = limit_cycle_amplitude(result.limit_cycles),
           .boresight_rms = result.wind.boresight_rms,
-          .limit_cycle_seen = limit_cycle_seen(result.limit_cycles),
+          .limit_cycle_runs_complete = limit_cycle_runs_complete(result.limit_cycles),
           .expected = rms};
 }
 

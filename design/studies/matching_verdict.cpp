@@ -60,7 +60,7 @@ std::vector<LimitCycleResult> limit_cycle_of(const MatchingStudy& study,
 
 bool limit_cycle_beyond(const MatchingStudy& study,
                         const std::vector<LimitCycleResult>& limit_cycles) {
-  return limit_cycle_amplitude(limit_cycles) > limit_cycle_limit(study.tightest_budget);
+  return limit_cycle_amplitude(limit_cycles) > allowed_limit_cycle(study.tightest_budget);
 }
 
 bool has_limit_cycle_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point) {
@@ -101,7 +101,7 @@ Assessment assessment_of(const MatchSeries& series, std::size_t point, double bu
   if (!limit_cycles.empty()) {
     candidate.limit_cycle_amplitude = limit_cycle_amplitude(limit_cycles);
     candidate.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(limit_cycles, budget),
-                                                 limit_cycle_seen(limit_cycles));
+                                                 limit_cycle_runs_complete(limit_cycles));
   }
   return candidate;
 }

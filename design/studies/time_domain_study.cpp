@@ -154,7 +154,7 @@ Assessment assessment_of(const NamedController& controller, const NonlinearVerif
   assessment.expected = expected;
   assessment.limit_cycle_amplitude = limit_cycle_amplitude(result.limit_cycles);
   assessment.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(result.limit_cycles, budget),
-                                                limit_cycle_seen(result.limit_cycles));
+                                                limit_cycle_runs_complete(result.limit_cycles));
   return assessment;
 }
 

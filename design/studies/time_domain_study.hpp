@@ -85,7 +85,8 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
 void add_present(const Mission& mission, const TrackingProblem& problem,
                  const NamedController& controller, bool retuned, TimeDomainStudy& study);
 
-/// `within_budget`: is_limit_cycle_free within the tightest budget; `shown`: limit_cycle_seen.
+/// `within_budget`: is_limit_cycle_free within the tightest budget; `shown`:
+/// limit_cycle_runs_complete.
 LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 
 /// The assessment that recommend() compares, of a controller that meets every constraint, from its

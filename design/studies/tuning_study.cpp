@@ -247,7 +247,8 @@ double TunedController::budget_rms() const {
 }
 
 bool TunedController::keeps(double rms) const {
-  if (in_time && (!in_time->limit_cycle_seen || !std::isfinite(in_time->rms()))) return false;
+  if (in_time && (!in_time->limit_cycle_runs_complete || !std::isfinite(in_time->rms())))
+    return false;
   return within_budget(budget_rms(), rms);
 }
 
@@ -268,7 +269,7 @@ Assessment assessment_of(const TuningStudy& section, const TunedController& row,
     result.simulated_rms = run.rms();
     result.expected = run.expected;
     result.limit_cycle_amplitude = run.limit_cycles;
-    result.limit_cycles = limit_cycle_verdict(run.limit_cycle_free, run.limit_cycle_seen);
+    result.limit_cycles = limit_cycle_verdict(run.limit_cycle_free, run.limit_cycle_runs_complete);
   }
   for (const auto& budget : section.budgets) {
     if (budget.wind_speed == row.wind_speed) count_budget(budget.rms, result);

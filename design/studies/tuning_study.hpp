@@ -28,10 +28,10 @@ std::string_view to_string(TunedFor purpose);
 
 /// Results of a controller on the nonlinear antenna. At the sky, rad.
 struct ControllerInTime {
-  bool limit_cycle_free = true;  // is_limit_cycle_free within the tightest budget
-  double limit_cycles = 0.0;     // largest boresight amplitude of its limit cycles
-  double boresight_rms = 0.0;    // in one record of wind; NaN if that run did not complete
-  bool limit_cycle_seen = true;  // limit_cycle_seen
+  bool limit_cycle_free = true;           // is_limit_cycle_free within the tightest budget
+  double limit_cycles = 0.0;              // largest boresight amplitude of its limit cycles
+  double boresight_rms = 0.0;             // in one record of wind; NaN if that run did not complete
+  bool limit_cycle_runs_complete = true;  // limit_cycle_runs_complete
   /// Over several records of wind.
   std::optional<SimulatedRms> expected = std::nullopt;
 

@@ -132,18 +132,18 @@ double limit_cycle_amplitude(const std::vector<LimitCycleResult>& limit_cycles) 
   return largest;
 }
 
-bool limit_cycle_seen(const std::vector<LimitCycleResult>& limit_cycles) {
+bool limit_cycle_runs_complete(const std::vector<LimitCycleResult>& limit_cycles) {
   return std::ranges::all_of(
       limit_cycles, [](const LimitCycleResult& run) { return run.status == RunStatus::complete; });
 }
 
-double limit_cycle_limit(double error) {
+double allowed_limit_cycle(double error) {
   return std::numbers::sqrt2 * error;
 }
 
 bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double error) {
-  return limit_cycle_seen(limit_cycles) &&
-         limit_cycle_amplitude(limit_cycles) <= limit_cycle_limit(error);
+  return limit_cycle_runs_complete(limit_cycles) &&
+         limit_cycle_amplitude(limit_cycles) <= allowed_limit_cycle(error);
 }
 
 }  // namespace boresight::design

@@ -168,12 +168,12 @@ struct NonlinearVerification {
 /// Largest boresight amplitude of its limit cycles (rad); 0 without any.
 double limit_cycle_amplitude(const std::vector<LimitCycleResult>& limit_cycles);
 /// True if every limit-cycle run completed.
-bool limit_cycle_seen(const std::vector<LimitCycleResult>& limit_cycles);
+bool limit_cycle_runs_complete(const std::vector<LimitCycleResult>& limit_cycles);
 /// The amplitude (rad) of a sinusoid with rms `error` (rad): a limit cycle up to this amplitude
 /// stays within the error.
-double limit_cycle_limit(double error);
+double allowed_limit_cycle(double error);
 /// True if the loop is free of limit cycles beyond an rms `error` (rad) when only friction and its
-/// own torque act: limit_cycle_seen, and no amplitude above the limit_cycle_limit.
+/// own torque act: limit_cycle_runs_complete, and no amplitude above the allowed_limit_cycle.
 bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double error);
 
 /// Runs only the first of verify_in_time's runs in wind (WindResult::trace), to compare another

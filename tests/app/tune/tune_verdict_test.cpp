@@ -278,14 +278,14 @@ TEST(Shortfalls, TrustNoBudgetToAControllerThatLimitCycles) {
   EXPECT_THAT(conclude(section),
               Contains(HasSubstr(
                   "1.0500 mdeg on the nonlinear antenna, where it limit-cycles by +-7.40 mdeg")));
-  section.controllers[0].in_time->limit_cycle_seen = false;
+  section.controllers[0].in_time->limit_cycle_runs_complete = false;
   shortfalls = find_shortfalls(section);
   ASSERT_EQ(shortfalls.size(), 1U);
   EXPECT_THAT(shortfalls[0].infeasible,
               HasSubstr("limit-cycle beyond it, or are not shown free of limit cycles."));
   section.budgets.clear();
   section.boresight_rms_goal = 1.2 * millidegree;
-  section.controllers[0].in_time->limit_cycle_seen = true;
+  section.controllers[0].in_time->limit_cycle_runs_complete = true;
   EXPECT_EQ(find_shortfalls(section).at(0).infeasible,
             "A boresight error of 1.2000 mdeg rms is met at 12 m/s by no tuned controller: the "
             "controllers that meet it in wind limit-cycle beyond it.");

@@ -86,8 +86,8 @@ TEST(TunedController, AddsTheLimitCycleInQuadrature) {
   EXPECT_TRUE(row.keeps(0.467 * millidegree));
   EXPECT_FALSE(row.keeps(0.466 * millidegree));
   // Though neither the rms nor the limit cycle alone breaks it.
-  EXPECT_LE(row.in_time->limit_cycles, limit_cycle_limit(0.466 * millidegree));
-  row.in_time->limit_cycle_seen = false;
+  EXPECT_LE(row.in_time->limit_cycles, allowed_limit_cycle(0.466 * millidegree));
+  row.in_time->limit_cycle_runs_complete = false;
   EXPECT_FALSE(row.keeps(millidegree));
 }
 

@@ -1,4 +1,4 @@
-// The peers' tuning: four gains for the least rms with the peak of S at most 2.
+// The peers' tuning: four gains for the least rms with Ms at most 2.
 #include <cmath>
 #include <ctime>
 #include <optional>

@@ -21,7 +21,7 @@ double degrees(std::complex<double> value) {
 bool write_bode(const char* path, const boresight::plant::PlantResponse& bode) {
   std::ofstream file(path);
   file.precision(9);
-  file << "frequency_hz,tachometer_db,tachometer_deg,beam_db,boresight_deg\n";
+  file << "frequency_hz,tachometer_db,tachometer_deg,boresight_db,boresight_deg\n";
   for (Eigen::Index i = 0; i < bode.frequency.size(); ++i) {
     const auto tachometer = bode.tachometer_command(i), boresight = bode.boresight_command(i);
     file << bode.frequency(i) / elevation_axis::two_pi << ',' << decibel(tachometer) << ','

@@ -184,7 +184,7 @@ CardLine present_line(const Report& report, const TuningSection& section) {
   };
   if (section.present.empty()) {
     return line(section.is_retuned_present
-                    ? fmt::format("not given; the comparison, {}, is the recommended controller",
+                    ? fmt::format("not given; {} is the recommended controller",
                                   present_label(section.name, true))
                     : "not given ([gains]): no comparison");
   }

@@ -59,7 +59,7 @@ function values = sampling(system)
   values = [norm(held.a, "fro"), norm(held.b, "fro")];
 end
 
-% Four gains for the least rms with the peak of S at most 2, by sqp on norms (central differences
+% Four gains for the least rms with Ms at most 2, by sqp on norms (central differences
 % of its own): rms, peak, gains.
 function values = tuned(wind, command)
   x = sqp(log([0.2; 1.2; 0.3; 0.03]), @(x) norms_of(wind, command, x)(1), [],
@@ -68,7 +68,7 @@ function values = tuned(wind, command)
   values = [norms_of(wind, command, x), exp(x')];
 end
 
-% rms and peak of S of the loop closed with gains exp(x); far away where it is unstable.
+% rms and Ms of the loop closed with gains exp(x); far away where it is unstable.
 function values = norms_of(wind, command, x)
   persistent last = [] found = []
   if isequal(x, last)

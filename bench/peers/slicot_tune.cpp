@@ -1,6 +1,6 @@
 // The peers' tuning as done with NLopt's SLSQP on SLICOT's norms, gradients by central differences:
 // slicot_tune FOLDER MODES ITEM (the folder is not needed). One JSON line: CPU time of one thread
-// (s), rms, peak of S, the four gains.
+// (s), rms, Ms, the four gains.
 #include <algorithm>
 #include <array>
 #include <cmath>

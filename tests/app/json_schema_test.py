@@ -155,7 +155,7 @@ class Schema(unittest.TestCase):
         check(lambda r: r.update(extra=1))
         check(lambda r: r["tuning"]["design"].update(extra_1=1.0))
         check(lambda r: r["tuning"]["design"].pop("boresight_rms_mdeg"))
-        check(lambda r: r["tuning"]["design"].update(beam_rms_mdeg="0.5"))
+        check(lambda r: r["tuning"]["design"].update(boresight_rms_mdeg="0.5"))
         check(lambda r: r.pop("tuning"))
         check(lambda r: r.update(tuned=report("tune", TUNED)["tuned"]))
         check(lambda r: r.update(command="guess"))

@@ -168,7 +168,8 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
                         mdeg(section.effect.rms(section.design.boresight_rms)));
   }
   if (tightest != section.budgets.end()) {
-    text += fmt::format("; budget {}", mdeg(tightest->budget.rms));
+    const bool met = tightest->wind_speed_limit >= section.design_speed;
+    text += fmt::format("; budget {}, {}", mdeg(tightest->budget.rms), met ? "met" : "MISSED");
   }
   if (!section.ties.empty()) {
     text += fmt::format("; a tie with {}", fmt::join(section.ties, "; "));
@@ -276,7 +277,7 @@ CardLine limit_cycle_line(const TimeDomainSection& section) {
   if (!limit_cycle_remark(section).empty()) text += ": BEYOND the tightest budget";
   if (const auto& reversal = section.result.reversal;
       reversal && reversal->status == design::RunStatus::complete) {
-    text += fmt::format("; velocity reversal {:.1f} mdeg", reversal->boresight_error / millidegree);
+    text += fmt::format("; reversal peak {:.1f} mdeg", reversal->boresight_error / millidegree);
   }
   return {"Limit cycle", text, std::string(in_time)};
 }

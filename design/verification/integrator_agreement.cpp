@@ -41,13 +41,13 @@ IntegratorAgreement integrator_agreement(const SimulatedLoop& loop,
                                          const ReferenceTrajectory& course,
                                          const IntegratorAgreementOptions& options) {
   const Index settled = settled_steps(course, options.settling);
-  const Index compared = course.reference.size() - settled;
+  const Index compared = course.reference.size() - 1 - settled;
   LoopRunOptions how;
   how.seed = options.seed;
   how.relative_tolerance = options.relative_tolerance;
   how.absolute_tolerance = options.absolute_tolerance;
   IntegratorAgreement agreement;
-  agreement.duration = course.interval * static_cast<double>(compared - 1);
+  agreement.duration = course.interval * static_cast<double>(compared);
   agreement.cvodes_relative_tolerance = options.cvodes_relative_tolerance;
   agreement.cvodes_absolute_tolerance = options.cvodes_absolute_tolerance;
   const auto has_completed = [&](const LoopRun& run) {

@@ -113,8 +113,7 @@ TEST(RedesignCard, ComparesWithTheGainsOfToday) {
   Report report = report_of_test();
   EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("[gains]"));
   report.tuning->present = {{"DPF", tuned_design(0.7)}};
-  EXPECT_EQ(line_of(report, "Gains of today"),
-            "DPF: 0.700 mdeg rms, linear plant; recommended 0.500");
+  EXPECT_EQ(line_of(report, "Gains of today"), "DPF: 0.700 mdeg, recommended 0.500, linear plant");
   report.tuning->present[0].design.tuning.status = design::TuningStatus::unstable;
   EXPECT_THAT(line_of(report, "Gains of today"), HasSubstr("unstable on the plant of the case"));
 }
@@ -124,18 +123,16 @@ TEST(RedesignCard, ComparesWithTheRetunedStructureWithoutGainsOfToday) {
   Report report = report_of_test();
   report.tuning->present = {{"PI", tuned_design(0.7), true}};
   EXPECT_EQ(line_of(report, "Gains of today"),
-            "not given; against PI tuned for this plant: 0.700 mdeg rms, linear plant; recommended "
-            "0.500");
+            "not given; PI tuned for this plant 0.700 mdeg, recommended 0.500, linear plant");
   report.tuning->present[0].simulated_rms = 0.72 * millidegree;
   auto& expected = report.time_domain->rms.emplace();
   expected.rms = {0.51 * millidegree, 0.01 * millidegree, 0.49 * millidegree, 0.53 * millidegree};
   EXPECT_EQ(line_of(report, "Gains of today"),
-            "not given; against PI tuned for this plant: 0.720 mdeg rms, simulated; recommended "
-            "0.510");
+            "not given; PI tuned for this plant 0.720 mdeg, recommended 0.510, simulated");
   report.tuning->present.clear();
   report.tuning->is_retuned_present = true;
   EXPECT_THAT(line_of(report, "Gains of today"),
-              HasSubstr("PI-0 tuned for this plant, is the recommended controller"));
+              HasSubstr("PI-0 tuned for this plant is the recommended controller"));
 }
 
 TEST(RedesignCard, CountsUnstableModels) {
@@ -188,7 +185,9 @@ TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
   report.tuning->budgets = {required};
   EXPECT_EQ(line_of(report, "Budgets (mdeg)"),
             "Ka 0.600 to 11.2 m/s (required 12, on 7 of 30 models); simulated");
-  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600"));
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600, met"));
+  report.tuning->budgets[0].wind_speed_limit = 9.0;
+  EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600, MISSED"));
 }
 
 // 0.5 mdeg linear, 4 % more as simulated, and a limit cycle of 0.2 sqrt(2).

@@ -47,7 +47,7 @@ NonlinearVerificationOptions options() {
   return options;
 }
 
-// Nothing but the friction of a loop under hunting, without orifice, gear and noise.
+// Nothing but the friction of a loop with a limit cycle, without orifice, gear and noise.
 SimulatedLoop loop_with_coulomb_friction(const TrackingProblem& problem,
                                          const control::Controller& controller, double coulomb) {
   auto details = reference::drive_details();
@@ -310,7 +310,7 @@ TEST(NonlinearVerification, RefusesOptionsOutOfRange) {
               HasSubstr("wind_duration of at least 1 s, found 0.5"));
   EXPECT_THAT(message([](auto& o) { o.settling = -1.0; }), HasSubstr("settling time"));
   EXPECT_THAT(message([](auto& o) { o.limit_cycle_duration = 0.0; }),
-              HasSubstr("hunting_duration"));
+              HasSubstr("limit_cycle_duration"));
   EXPECT_THAT(message([](auto& o) { o.reversal_leg = 0.0; }), HasSubstr("reversal_leg"));
   EXPECT_THAT(message([](auto& o) { o.settling_watched = 0.0; }), HasSubstr("settling_watched"));
   EXPECT_THAT(message([](auto& o) { o.tracking_rate = 1.0; }),

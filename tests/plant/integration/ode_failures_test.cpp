@@ -231,7 +231,7 @@ TEST(OdeIntegrator, RefusesOptionsThatDoNotFit) {
   refusal([](OdeOptions& o) { o.absolute_tolerance.setOnes(3); }, "or 2, found 3");
   refusal([](OdeOptions& o) { o.highest_order = 0; }, "highest_order");
   refusal([](OdeOptions& o) { o.longest_step = 0.0; }, "longest_step");
-  refusal([](OdeOptions& o) { o.max_steps = 0; }, "most_steps");
+  refusal([](OdeOptions& o) { o.max_steps = 0; }, "max_steps");
   refusal([](OdeOptions& o) { o.iteration = OdeIteration::fixed_point; }, "found fixed_point");
   refusal([](OdeOptions& o) { o.initial_sensitivities.setZero(1, 2); }, "2 x 2, found 1 x 2");
   refusal([](OdeOptions& o) { o.initial_sensitivities.setConstant(2, 2, nan); }, "finite");

@@ -261,7 +261,7 @@ TEST(Sample, NamesWhatItRefuses) {
   for (const double bad : {0.0, -0.1, std::nan(""), HUGE_VAL}) {
     refused(bad, zoh, {}, "sample time above 0");
   }
-  refused(0.1, foh, {1.0, {}}, "prewarp_frequency goes with Tustin");
+  refused(0.1, foh, {1.0, {}}, "prewarp_frequency applies to Tustin");
   refused(0.1, tustin, {-1.0, {}}, "found -1 rad/s");
   refused(0.1, tustin, {std::numbers::pi / 0.1, {}}, "between 0 and pi/T = 31.4159");
   refused(0.1, tustin, {0.0, {0.1}}, "dead_times go with the zero-order hold");

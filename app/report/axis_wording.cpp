@@ -21,7 +21,8 @@ std::string words_of(const io::PointingAxis& axis) {
 }
 
 std::string words_beside(std::string_view title, const io::PointingAxis& axis) {
-  const std::string words = words_of(axis), name = axis.name + " axis";
+  std::string words = words_of(axis);
+  const std::string name = axis.name + " axis";
   if (title.find(name) == std::string_view::npos) return words;
   constexpr std::string_view comma = ", ";
   if (words == name) return {};

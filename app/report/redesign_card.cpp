@@ -70,8 +70,8 @@ design::ConfidenceGrade confidence(const Report& report, const TuningSection& se
   evidence.fitness = section.fitness;
   evidence.simulated = simulated(report);
   evidence.plant = plant_basis(report);
-  evidence.stable_on_members =
-      unstable_members(section) == 0 && !(section.instability && section.instability->value > 0.0);
+  const bool unstable_samples = section.instability && section.instability->value > 0.0;
+  evidence.stable_on_members = unstable_members(section) == 0 && !unstable_samples;
   evidence.inertias_agree = inertias_agree(report);
   evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
   evidence.verdict_depends_on_interpretation =

@@ -18,7 +18,10 @@ class Section {
       : content_(other.content_ ? std::make_unique<T>(*other.content_) : nullptr) {}
   Section(Section&&) noexcept = default;
   ~Section() = default;
-  Section& operator=(const Section& other) { return *this = Section(other); }
+  Section& operator=(const Section& other) {
+    if (this != &other) *this = Section(other);
+    return *this;
+  }
   Section& operator=(Section&&) noexcept = default;
   Section& operator=(T content) {
     content_ = std::make_unique<T>(std::move(content));

@@ -61,8 +61,8 @@ def with_present_keys(value, names, inside=""):
 
 
 def check_itself():
-    old = {"m": {"law": "x", "controller": [{"controllers": 1}]}, "law": 2}
-    assert with_present_keys(old, {"law": "controller", "m.controller": "m.name", "controllers": "all"}) == {
+    old = {"m": {"law": "x", "controller": [{"laws": 1}]}, "law": 2}
+    assert with_present_keys(old, {"law": "controller", "m.law": "m.name", "laws": "all"}) == {
         "m": {"name": "x", "controller": [{"all": 1}]}, "controller": 2}
     base = {"a": [1.0, {"b": "x"}], "c": None}
     assert differences(base, json.loads(json.dumps(base)), 0.0) == []

@@ -4,6 +4,7 @@ A change that moves code must not move numbers: JSON is compared value by value,
 Differences that are meant belong into the change's description, each with its reason.
 
 usage: compare_programs.py OLD_PROGRAM NEW_PROGRAM SOURCE_FOLDER [--commands NAME ...] [--tolerance T]
+       [--numbers]
 Exit code 1 where something differs.
 """
 
@@ -47,9 +48,13 @@ def differences(old, new, tolerance, path=""):
     if isinstance(old, list) and isinstance(new, list) and len(old) == len(new):
         return [one for i, (a, b) in enumerate(zip(old, new))
                 for one in differences(a, b, tolerance, f"{path}[{i}]")]
-    numbers = all(isinstance(x, (int, float)) and not isinstance(x, bool) for x in (old, new))
+    numbers = is_number(old) and is_number(new)
     same = math.isclose(old, new, rel_tol=tolerance, abs_tol=0.0) if numbers else old == new
     return [] if same else [(path, old, new)]
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
 def with_present_keys(value, names, inside=""):
@@ -78,6 +83,8 @@ def main():
     parser.add_argument("source", type=pathlib.Path)
     parser.add_argument("--commands", nargs="+", choices=COMMANDS, default=list(COMMANDS))
     parser.add_argument("--tolerance", type=float, default=0.0)
+    parser.add_argument("--numbers", action="store_true",
+                        help="list only numbers that both programs give, and not those that came or went")
     arguments = parser.parse_args()
     source, unequal = arguments.source.resolve(), 0
     programs = [str(pathlib.Path(program).resolve()) for program in arguments.programs]
@@ -98,6 +105,8 @@ def main():
             renamed = {key["before"]: key["now"] for key in (new or {}).pop("renamed_keys", [])}
             (old or {}).pop("renamed_keys", None)
             found = differences(with_present_keys(old, renamed), new, arguments.tolerance)
+            if arguments.numbers:
+                found = [one for one in found if is_number(one[1]) and is_number(one[2])]
             text = "same text" if old_text == new_text else "another text"
             print(f"{command}, {name}: exit codes {old_code} and {new_code}, {text}, "
                   f"{len(found)} values differ", flush=True)

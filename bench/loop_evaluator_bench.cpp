@@ -28,7 +28,7 @@ void antenna_evaluator_set_up(benchmark::State& state) {
 }
 BENCHMARK(antenna_evaluator_set_up)->Unit(benchmark::kMicrosecond);
 
-// Mean over forty stable laws anywhere within the bounds.
+// Mean over forty stable controllers anywhere within the bounds.
 void antenna_loop_evaluation(benchmark::State& state) {
   const auto structure =
       control::LoopStructure::named(structures.at(static_cast<std::size_t>(state.range(0))));

@@ -1,6 +1,6 @@
-// 100 000 plants, each with other structure, oil, leakage, friction and inertias, under one law
-// with its gains held; and how far a second thread speeds that up beside a loop of arithmetic
-// alone.
+// 100 000 plants, each with other structure, oil, leakage, friction and inertias, under one
+// controller with its gains held; and how far a second thread speeds that up beside a loop of
+// arithmetic alone.
 #include <atomic>
 #include <chrono>
 #include <thread>

@@ -22,7 +22,7 @@ void peer_loop_evaluation(benchmark::State& state) {
 }
 BENCHMARK(peer_loop_evaluation)->Arg(5)->Arg(50)->Arg(500)->Unit(benchmark::kMicrosecond);
 
-// The same over stable laws anywhere within a factor of ten, each new to the evaluator.
+// The same over stable controllers anywhere within a factor of ten, each new to the evaluator.
 void peer_loop_evaluation_of_random_controllers(benchmark::State& state) {
   auto evaluator = reference::peer_evaluator(state.range(0));
   evaluator.look_at({false, true, false});

@@ -28,7 +28,7 @@ inline design::TrackingProblem plant_family(int modes) {
   return problem;
 }
 
-/// A stable law of that family, with lag.
+/// A stable controller of that family, with lag.
 inline control::Controller stable_controller() {
   return {control::LoopStructure::pi_with_lag(), {0.05, 0.5, 3.0, 0.3, 0.01}};
 }

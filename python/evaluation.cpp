@@ -59,7 +59,7 @@ Evaluation evaluate(io::Case antenna, const std::vector<std::string>& paths,
   return result;
 }
 
-// Of the chosen law; nothing without one.
+// Of the chosen controller; nothing without one.
 template <typename Value>
 auto of_controller(Value (*value)(const design::CandidateController&)) {
   return [value](const Candidate& candidate) -> std::optional<Value> {

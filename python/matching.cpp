@@ -83,7 +83,7 @@ auto of_points(const Number& number) {
   return [number](const Matching& matching) { return column(matching.section().points, number); };
 }
 
-// NaN where no law holds its goals.
+// NaN where no controller holds its goals.
 template <typename Number>
 auto of_values(const Number& number) {
   return [number](const MatchSeries& series) {

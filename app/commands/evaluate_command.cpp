@@ -42,7 +42,8 @@ int run(EvaluateArguments arguments) {
   for (const auto& candidate : report.evaluated->candidates) {
     const CandidateController* controller = candidate.chosen_controller();
     const bool met = controller != nullptr && controller->constraints_met;
-    // Hunting is no hard goal: the report says it, and does not choose such a law.
+    // A limit cycle breaks no constraint; the report states it and does not choose such a
+    // controller.
     if (met && controller->design.verification.passed) continue;
     fmt::print(stderr, "boresight: {}: {}\n", candidate.name,
                controller == nullptr ? "no structure has a stable controller"

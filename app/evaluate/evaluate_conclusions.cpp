@@ -20,7 +20,7 @@
 namespace boresight::app {
 namespace {
 
-// NaN without a stable law.
+// NaN without a stable controller.
 double rms_of(const Candidate& candidate) {
   const CandidateController* controller = candidate.chosen_controller();
   return controller == nullptr ? std::numeric_limits<double>::quiet_NaN()
@@ -71,8 +71,8 @@ std::string against_as_it_is(const EvaluateSection& section) {
   return text + ".";
 }
 
-// What the nonlinear antenna makes of the laws: the widest spread of factors, what hunts, and where
-// it chose another structure or order than the linear plant.
+// What the nonlinear antenna makes of the controllers: the widest spread of factors, limit cycles,
+// and where it chose another structure or order than the linear plant.
 std::string in_the_time_domain(const EvaluateSection& section) {
   if (!section.time_domain) return "";
   std::vector<std::string> factors, limit_cycles, failed;
@@ -219,7 +219,7 @@ std::string out_of_reach(const EvaluateSection& section) {
   return fmt::format("{}", fmt::join(sentences, " "));
 }
 
-// Of the laws compared.
+// Of the controllers compared.
 std::string ended_at_bounds(const EvaluateSection& section) {
   std::vector<SearchedController> controllers;
   for (const auto& candidate : section.candidates) {

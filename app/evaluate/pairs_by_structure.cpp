@@ -24,7 +24,7 @@ std::string with_loops(const Candidate& candidate) {
                      controller == nullptr ? "-" : controller->structure);
 }
 
-// What the gains with one structure on both say of the gain with the laws chosen.
+// Compares the gain with one structure on both with that of the chosen controllers.
 std::string verdict(const Winner& pair, const PairByStructure& found) {
   int better = 0, worse = 0;
   double minimum = HUGE_VAL, maximum = 0.0;

@@ -57,7 +57,8 @@ bool moves_otherwise(const Candidate& candidate, const Candidate& base) {
   return own_cycle > 0.0 ? worth_a_sentence(cycle / own_cycle - 1.0) : cycle > 0.0;
 }
 
-// Which proposals' changes of reversals and hunting their laws may have made; empty without such.
+// Which proposals' changes of reversals and limit cycles their controllers may have made; empty
+// without such.
 std::string controllers_of_other_families(const EvaluateSection& section) {
   const Candidate& base = section.candidates.front();
   const CandidateController* own = base.chosen_controller();

@@ -80,10 +80,10 @@ std::vector<Figure> hold_out_figure(const io::CampaignSection& section) {
                   100.0 * held.result.error.rate_error, 100.0 * held.result.error.torque_error),
       make_axis("time", "s"));
   const auto panel = [&](const char* label, const char* unit, const Eigen::VectorXd& seen,
-                         const Eigen::VectorXd& foretold) {
+                         const Eigen::VectorXd& predicted) {
     FigurePanel one = make_panel(make_axis(label, unit));
     for (const bool measured : {true, false}) {
-      const Eigen::VectorXd& values = measured ? seen : foretold;
+      const Eigen::VectorXd& values = measured ? seen : predicted;
       const Eigen::VectorXd time = Eigen::VectorXd::LinSpaced(
           values.size(), 0.0, recorded.sample_time * static_cast<double>(values.size() - 1));
       const auto curve = thinned(time, values);

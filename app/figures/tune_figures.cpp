@@ -17,7 +17,7 @@
 namespace boresight::app {
 namespace {
 
-constexpr std::size_t max_compared = 6;  // laws in one panel
+constexpr std::size_t max_compared = 6;  // controllers in one panel
 constexpr std::size_t valve = 1;         // of control::loop_breaks
 
 std::string title_of(const TuneSection& section) {

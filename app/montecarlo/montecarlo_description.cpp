@@ -54,7 +54,7 @@ void describe_plant(io::Visitor& v, const NotablePlant& plant) {
            "With gains tuned for this plant.");
 }
 
-// A gain of the law that is held.
+// A gain of the controller that is held.
 struct FixedGain {
   std::string symbol, name, unit;
   double value = 0.0;

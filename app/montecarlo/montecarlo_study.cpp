@@ -89,7 +89,7 @@ std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// Gains as bytes, so that every rank holds the same law to the last bit.
+// Gains as bytes, so that every rank holds the same controller to the last bit.
 std::string controller_bytes(const ChosenController& fixed_gain) {
   std::ostringstream text;
   text << fixed_gain.structure << '\n' << fixed_gain.source << '\n' << std::hexfloat;
@@ -220,7 +220,7 @@ class Work {
   Clock::duration saving_{};
 };
 
-// With law and case.
+// With controller and case.
 MonteCarloSection section_of(design::MonteCarloSummary summary,
                              const MonteCarloArguments& arguments, const io::Case& antenna,
                              const design::MonteCarlo& study, const ChosenController& fixed_gain) {

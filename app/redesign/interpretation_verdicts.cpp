@@ -17,7 +17,7 @@
 namespace boresight::app {
 namespace {
 
-// What a choice's own law does.
+// What a choice's own controller does.
 struct EvaluatedChoice {
   double boresight_rms = 0.0;        // rad
   std::vector<double> speed_limits;  // m/s, one a budget

@@ -40,7 +40,7 @@ struct DecidingInput {
   std::optional<design::InputValue> test;
 };
 
-void describe_chance(io::Visitor& v, std::string_view key, const design::Probability& chance,
+void describe_probability(io::Visitor& v, std::string_view key, const design::Probability& chance,
                      std::string_view meaning) {
   v.group(key, meaning, [&] {
     v.defined_as("probability", "A probability with its 95 % interval, for the number of samples.");
@@ -79,21 +79,21 @@ void describe_option(io::Visitor& v, const NamedOption& option) {
            v.number("lower_95", quantile.lower, millidegree_as_kept, "Lower end of its interval.");
            v.number("upper_95", quantile.upper, millidegree_as_kept, "Upper end.");
          });
-  describe_chance(v, "is_best", statistics.best, "That it has the least rms of all.");
+  describe_probability(v, "is_best", statistics.best, "That it has the least rms of all.");
   v.number("expected_regret", statistics.expected_regret, millidegree_as_kept,
            "Mean loss against the best of each sample.");
   v.number("regret_error", statistics.regret_error, millidegree_as_kept, "Standard error of it.");
   v.number("on_pareto_front_fraction", option.front_fraction, unit::ratio,
            "Fraction of samples in which it is on the Pareto front of cost and rms; null without a "
            "cost.");
-  describe_chance(v, "outside_goals", option.random_samples.outside_goals,
+  describe_probability(v, "outside_goals", option.random_samples.outside_goals,
                   "Unstable, or a peak or the control effort beyond its goal.");
-  describe_chance(v, "unstable", option.random_samples.unstable, "Of the loop.");
+  describe_probability(v, "unstable", option.random_samples.unstable, "Of the loop.");
 }
 
 void describe_same_structure(io::Visitor& v, const SameStructure& one) {
   v.text("structure", one.structure, "As the user names it.");
-  describe_chance(v, "first_is_better", one.better, "Less rms, ties counted half.");
+  describe_probability(v, "first_is_better", one.better, "Less rms, ties counted half.");
   describe_gain(v, one.mean_gain, one.gain_error);
   v.flag("first_usable", one.first_usable,
          "Whether the first's controller of that structure meets every goal, passes its "
@@ -178,7 +178,7 @@ void describe_decision(io::Visitor& v, const EvaluateSection& section,
   v.list("pairs", pairs, "Every pair, on the same samples.", [&](const NamedPair& one) {
     v.text("first", one.first, "Name.");
     v.text("second", one.second, "Name.");
-    describe_chance(v, "first_is_better", one.pair.better, "Less rms, ties counted half.");
+    describe_probability(v, "first_is_better", one.pair.better, "Less rms, ties counted half.");
     describe_gain(v, one.pair.mean_gain, one.pair.gain_error);
     v.text("first_over_second", to_string(one.pair.first_over_second), "Dominance.");
     v.text("second_over_first", to_string(one.pair.second_over_first), "Dominance.");

@@ -75,13 +75,13 @@ void describe_time(io::Visitor& v, const MatchTimeDomain& run) {
                    });
 }
 
-// One law of a series at one point.
+// One controller of a series at one point.
 struct PointController {
   design::MatchedController controller;
   MatchValue value;
 };
 
-// A gain of a law.
+// A gain of a controller.
 struct ControllerGain {
   std::string name, symbol, unit;
   double value = 0.0;

@@ -54,7 +54,7 @@ void describe_fraction(io::Visitor& v, std::string_view key,
   });
 }
 
-// A gain of a law.
+// A gain of a controller.
 struct MeasuredGain {
   control::GainDescription gain;
   double value = 0.0;

@@ -51,7 +51,7 @@ double loss(double rms, const design::PointingBand& band) {
   return design::pointing_loss_db(rms, band.beamwidth, design::LossConvention::mean_loss_two_axes);
 }
 
-// Whether a table of the laws' losses has one beyond the beam's parabola.
+// Whether a table of the controllers' losses has one beyond the beam's parabola.
 bool far_out(const TuneSection& section) {
   return std::ranges::any_of(section.controllers, [&](const TunedController& row) {
     const double rms = std::max(row.boresight_rms, row.climate_rms.value_or(0.0));

@@ -17,12 +17,12 @@ namespace unit = io::key_units;
 
 constexpr io::NumberForm above_zero{.above = 0.0, .finite = true};
 
-// A gain of a law as the case writes it.
+// A gain of a controller as the case writes it.
 struct WrittenGain {
   std::string symbol, name, value;
 };
 
-// Up to which wind a law meets one budget.
+// Up to which wind a controller meets one budget.
 struct BudgetLimit {
   design::PointingBudget budget;
   double wind_speed = 0.0;  // m/s

@@ -74,13 +74,13 @@ std::string conclude_wind(const TimeDomainSection& section) {
                      excess);
 }
 
-// Whether by that it is left out of a choice; a law may also be because a run did not end.
+// Whether by that it is left out of a choice; a controller may also be because a run did not end.
 bool has_limit_cycle_beyond(const std::vector<design::LimitCycleResult>& limit_cycles,
                             double error) {
   return design::limit_cycle_amplitude(limit_cycles) > design::allowed_limit_cycle(error);
 }
 
-// What a law does that does not hold still within an rms error.
+// What a controller with a limit cycle beyond an rms error does.
 std::string unrest(const std::vector<design::LimitCycleResult>& limit_cycles, double error) {
   if (!has_limit_cycle_beyond(limit_cycles, error)) {
     return "was not shown free of limit cycles (a run at rest or at the tracking rate did not "
@@ -91,7 +91,7 @@ std::string unrest(const std::vector<design::LimitCycleResult>& limit_cycles, do
                      error / millidegree);
 }
 
-// The same of another such law.
+// The same of another such controller.
 std::string unrest_too(const std::vector<design::LimitCycleResult>& limit_cycles, double error) {
   if (!has_limit_cycle_beyond(limit_cycles, error))
     return "was not shown free of limit cycles either";
@@ -143,7 +143,7 @@ bool is_better(const TimeDomainSection& section, const design::SimulatedCandidat
   return change ? change->lower > 0.0 : section.own().simulated_rms() < other;
 }
 
-// Why this law and not the one that the linear plant puts first.
+// Why this controller and not the one that the linear plant puts first.
 std::string conclude_choice(const TimeDomainSection& section) {
   const auto linear = [](const TimeDomainSection::Candidate& candidate) {
     return candidate.result.wind.predicted_rms;
@@ -186,7 +186,7 @@ std::string integration_text(const TimeDomainSection& section) {
   return both->status == RunStatus::lost ? fmt::format("{}loses the target.", warning) : "";
 }
 
-// What it does by itself at a steady rate; empty where it holds still.
+// What it does by itself at a steady rate; empty where it is free of limit cycles.
 std::string limit_cycle_text(const design::LimitCycleResult& limit_cycles, double error) {
   const char* where = limit_cycles.rate == 0.0 ? "At rest" : "At the tracking rate";
   if (limit_cycles.status != RunStatus::complete) {
@@ -255,7 +255,7 @@ std::string limit_cycle_remark(const TimeDomainSection& section) {
 std::string decide(const TimeDomainSection& section) {
   const double error = section.options.tightest_budget;
   const double rms = section.own().simulated_rms() / millidegree;
-  // No other did either: such a law is never put before one that did.
+  // No other did either: such a controller is never put before one that did.
   if (!std::isfinite(rms)) {
     return fmt::format(
         "No controller completed its run on the nonlinear antenna in {:.3g} m/s of wind: "

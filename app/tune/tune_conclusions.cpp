@@ -40,8 +40,8 @@ std::string limits_of(const TunedController& row) {
   return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// Behind an rms of the linear plant what the nonlinear antenna says to it; nothing where no law
-// ran there.
+// Behind an rms of the linear plant what the nonlinear antenna says to it; nothing where no
+// controller ran there.
 std::string of_the_linear_plant(const TuneSection& section, const TunedController& row) {
   const bool some_ran = std::ranges::any_of(
       section.controllers, [](const TunedController& other) { return other.in_time.has_value(); });
@@ -54,8 +54,8 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedControlle
   return fmt::format(" on the linear plant, {} on the nonlinear antenna", mdeg(row.in_time->rms()));
 }
 
-// The best usable law of each purpose and, if it is another, the one recommended; and what only the
-// bounds of the search hold of them.
+// The best usable controller of each purpose and, if it is another, the one recommended; and what
+// only the bounds of the search hold of them.
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
   std::vector<const TunedController*> concluded;
   const auto say = [&](const TunedController& row, const std::string& subject) {
@@ -124,7 +124,7 @@ std::ptrdiff_t plants_kept(const TunedController& controller, double rms) {
   });
 }
 
-// What a law has of a budget's rms.
+// What a controller has of a budget's rms.
 std::string figures_of(const TunedController& controller) {
   std::string text = fmt::format("{} has {} on the case's plant", name_and_purpose(controller),
                                  mdeg(controller.boresight_rms));
@@ -161,8 +161,8 @@ std::string alternative_text(const TuneSection& section, const design::PointingB
                      why_not_recommended(section, *maximum, recommended));
 }
 
-// The budgets that are needed up to a wind speed, and are met there: by the law recommended or,
-// where that does not, by another.
+// The budgets that are needed up to a wind speed, and are met there: by the controller recommended
+// or, where that does not, by another.
 void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& budget : section.budgets) {
     if (!budget.wind_speed || section.torque_limited_wind_speed < *budget.wind_speed) continue;
@@ -188,7 +188,7 @@ void conclude_budgets(const TuneSection& section, std::vector<std::string>& sent
   }
 }
 
-// Laws that are good for the nominal plant only, and what it costs to be good for all.
+// Controllers that are good for the nominal plant only, and what it costs to be good for all.
 void conclude_robustness(const TuneSection& section, std::vector<std::string>& sentences) {
   for (const auto& row : section.controllers) {
     if (row.tuned_for != TunedFor::nominal || !row.usable() || !row.ensemble) continue;

@@ -42,7 +42,7 @@ std::vector<const TunedController*> rows_at(const TuneSection& section, double w
   return rows;
 }
 
-// A goal's limit and what the law has instead, in the units of reports.
+// A goal's limit and what the controller has instead, in the units of reports.
 std::string found_and_limit(const NormalisedConstraint& goal, const design::Constraints& goals) {
   const std::size_t b = goal.loop_break ? static_cast<std::size_t>(*goal.loop_break) : 0;
   const auto maximum = [&](double limit, const char* unit) {
@@ -113,7 +113,7 @@ std::string rms_text(const TunedController& row) {
   return text;
 }
 
-// What the linear plant puts before the law that is named, and why it is not the one.
+// What the linear plant puts before the controller that is named, and why it is not the one.
 std::string left_out_text(const TuneSection& section, const TunedController& named) {
   if (named.left_out()) {
     return fmt::format(" On the nonlinear antenna it {}, and no other {} controller is fit.",
@@ -132,8 +132,8 @@ std::string left_out_text(const TuneSection& section, const TunedController& nam
   return fmt::format(" Excluded by the nonlinear antenna: {}.", fmt::join(texts, "; "));
 }
 
-// The law that comes nearest to an rms that none reaches, behind the one recommended if that is
-// another. `more_of`: what is said of a law behind its rms.
+// The controller that comes nearest to an rms that none reaches, behind the one recommended if that
+// is another. `more_of`: what is said of a controller behind its rms.
 template <typename MoreOf>
 std::string nearest_text(const TuneSection& section, const TunedController& nearest,
                          const MoreOf& more_of) {
@@ -149,7 +149,7 @@ std::string nearest_text(const TuneSection& section, const TunedController& near
       why_not_recommended(section, nearest, *recommended), left_out_text(section, *recommended));
 }
 
-// Goals that no law of one wind speed and purpose meets.
+// Goals that no controller of one wind speed and purpose meets.
 void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose,
                       std::vector<Shortfall>& shortfalls) {
   const TunedController* nearest = nullptr;
@@ -197,7 +197,7 @@ std::vector<std::string> structures_of(const TuneSection& section) {
   return names;
 }
 
-// Up to which wind speed a law meets a budget.
+// Up to which wind speed a controller meets a budget.
 std::string reached_text(const TuneSection& section, const TunedController& controller,
                          double limit) {
   return fmt::format(
@@ -205,8 +205,8 @@ std::string reached_text(const TuneSection& section, const TunedController& cont
       controller.in_time ? " by simulation" : "", climate_text(section.climate, limit));
 }
 
-// Behind what no law keeps: why those do not whose rms, at the wind speed of `best` and tuned for
-// the same, is within it; empty where there is none, and the rms is the reason.
+// Behind what no controller keeps: why those do not whose rms, at the wind speed of `best` and
+// tuned for the same, is within it; empty where there is none, and the rms is the reason.
 std::string barred_by_limit_cycle(const TuneSection& section, const TunedController& best,
                                   double rms) {
   bool any = false, seen = true;
@@ -298,7 +298,7 @@ std::string why_not_recommended(const TuneSection& section, const TunedControlle
     }
     const bool has_larger_limit_cycle =
         run.limit_cycles * (1.0 - negligible_change) > chosen.limit_cycles;
-    // A negligible loss in wind is not why, where hunting is.
+    // The reason is the limit cycle, and not a negligible loss in wind.
     const double fraction = has_larger_limit_cycle ? negligible_change : 0.0;
     if (run.rms() > (1.0 + fraction) * chosen.rms()) points_worse(run.rms(), chosen.rms());
     if (has_larger_limit_cycle) {

@@ -45,7 +45,7 @@ BrokenLoop broken_loop(const plant::ResponsePoint& response, double frequency,
   throw InvalidInput("loop goals: not a loop break");
 }
 
-// L at one break of one law over frequency, on the grid and between.
+// L at one break of one controller over frequency, on the grid and between.
 class LoopCurve {
  public:
   LoopCurve(const LoopChannels& channels, double delay, const Controller& controller,

@@ -74,8 +74,8 @@ template <bool with_gradients, std::size_t width>
 }  // namespace
 
 // The loop at as many frequencies as the registers are wide. With D1 and D2 the returns 1 + L of
-// the rate loop and of both loops, a = -b/D2 what a demand of one does to the beam, m what the law
-// makes of the wind, and y its answer to each sensor's noise:
+// the rate loop and of both loops, a = -b/D2 what a demand of one does to the beam, m what the
+// controller makes of the wind, and y its answer to each sensor's noise:
 //   beam by wind  z = boresight_wind + a m,   dz = a (dm - m dD2/D2)
 //   likewise the demand by wind with a = -1/D2 and the motor torque with its own response for b
 //   noise         y = n/D2,              dy = (dn - y dD2)/D2

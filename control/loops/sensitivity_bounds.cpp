@@ -11,7 +11,7 @@ plant::StateSpace adder(const std::string& first, const std::string& second,
   return plant::static_gain(Eigen::MatrixXd::Ones(1, 2), {first, second}, {sum});
 }
 
-// The law and the sums around the plant's core, which takes the place of the plant.
+// The controller and the sums around the plant's core, which takes the place of the plant.
 void close_core(plant::ModalSystem& system, const plant::StateSpace& controller,
                 const std::vector<std::string>& inputs, const std::vector<std::string>& outputs,
                 double delay) {

@@ -165,7 +165,7 @@ RejectionMember evaluate_member(const TrackingProblem& problem, const EnsembleMe
   }
   result.boresight_rms = std::sqrt(variance) / problem.gear_ratio;
   result.control_effort = std::sqrt(response.effort_variance);
-  constexpr double rounding = 1.0 + 1e-4;  // of a tuned law that stands at its goal
+  constexpr double rounding = 1.0 + 1e-4;  // of a tuned controller that stands at its goal
   result.within_constraints = result.control_effort <= goals.control_effort * rounding;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const double peak = response.peak(b);

@@ -207,8 +207,8 @@ Controller assumed_start(Plants& plants, const Controller& target, double limit,
                          CommissioningPlan& plan) {
   const Controller plain = without_torque_paths(target);
   for (double factor = 2.0; factor <= largest_detuning; factor *= 2.0) {
-    // A law whose position loop does the rate loop's work must keep its rate loop: slower, its
-    // integral would reach into the position loop.
+    // A controller whose position loop does the rate loop's work must keep its rate loop: slower,
+    // its integral would reach into the position loop.
     for (const double rate_factor : {factor, 1.0}) {
       Controller start = detuned(plain, rate_factor, factor);
       if (plants.worst_peak({start, true, false}) <= limit &&

@@ -227,7 +227,7 @@ struct FixedGainPanels::Evaluation {
     set_part(values.sensitivity_square[0], k, 1.0 / rate_square);
     set_part(values.sensitivity_square[1], k, inverse_square);
     set_part(values.sensitivity_square[2], k, rate_square * inverse_square);
-    // What the wind makes the law demand, with the dead time.
+    // What the wind makes the controller demand, with the dead time.
     const ComplexPart demand = -(rate * tachometer_wind + pressure * torque_wind +
                                  position * (encoder_wind - bending * torque_wind)) *
                                both_inverse;

@@ -158,7 +158,8 @@ void MonteCarloEvaluator::set_goals(const plant::AntennaPlant& plant, const Fixe
             *goals.gust_torque);
   }
   if (goals.ask_for_margins()) add_margins(plant);
-  // A law tuned to rest on a limit may be above it by rounding on the plant it was tuned for.
+  // A controller tuned to rest on a limit may be above it by rounding on the plant it was tuned
+  // for.
   constexpr double rounding = 1e-4;
   std::uint32_t broken = 0;
   for (const auto& goal : ratios_) {

@@ -10,7 +10,7 @@
 namespace boresight::design {
 namespace {
 
-// What one member has in the place of the case's numbers, in the order of MemberRanges.
+// What one member has instead of the case's numbers, in the order of MemberRanges.
 struct Draw {
   double structure_frequency = 1.0, oil_stiffness = 1.0, leakage_rate = 0.0, viscous_friction = 0.0;
 };

@@ -33,7 +33,7 @@ const ActiveConstraint* missing(const std::vector<ActiveConstraint>& from,
   return nullptr;
 }
 
-// What changes between two laws; empty: nothing.
+// What changes between two controllers; empty: nothing.
 std::string change_between(const MatchedController& one, const MatchedController& other) {
   const ActiveConstraint* gone = missing(one.active_constraints, other.active_constraints);
   const ActiveConstraint* come = missing(other.active_constraints, one.active_constraints);

@@ -46,7 +46,7 @@ double torque_limited_wind_speed(const Mission& mission) {
   const double left = plant::available_wind_torque(mission.antenna);
   if (!(left > 0.0)) return 0.0;
   const double speed = mission.wind.mean_speed;
-  // The torque goes with the square of the speed.
+  // The torque scales with the square of the speed.
   return speed * std::sqrt(left * gear_ratio(mission.antenna) /
                            std::abs(plant::mean_wind_torque(mission.wind.site, speed)));
 }

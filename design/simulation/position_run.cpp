@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 constexpr Index intervals_per_sample = 4;
 constexpr double largest_acceleration = 0.2 * degree;  // rad/s2, of a command
 
-// The antenna that runs, and what its law was designed on.
+// The antenna that runs, and what its controller was designed on.
 struct SimulatedAxis {
   explicit SimulatedAxis(const Mission& mission)
       : problem(tracking_problem(mission)),

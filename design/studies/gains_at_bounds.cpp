@@ -113,7 +113,7 @@ std::vector<ReachedBound> reached_bounds(const std::vector<SearchedController>& 
     const auto& tuning = *one.tuning;
     if (tuning.status == TuningStatus::unstable) continue;
     const auto& descriptions = tuning.controller.structure.gains();
-    // Without gains there is no law.
+    // Without gains there is no controller.
     for (std::size_t k = 0; k < tuning.controller.gains.size(); ++k) {
       const auto& names = tuning.gains_at_bound;
       if (std::ranges::find(names, descriptions[k].name) == names.end()) continue;

@@ -73,7 +73,7 @@ bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series) {
 }
 
 // The span of a structure has its best motors at one end, the comparison of structures those as
-// built: what hunts at either has no such rms there.
+// built: a controller with a limit cycle at either has no such rms there.
 bool weighed(const MatchingStudy& study, const MatchSeries& series) {
   return series.best && !has_limit_cycle(study, series) &&
          !has_limit_cycle_at(study, series, as_built(study));

@@ -76,7 +76,7 @@ void assume_encoder(const plant::AntennaPlant& antenna, control::MeasuredPlant& 
   }
 }
 
-// The law on the mission's own plant.
+// The controller on the mission's own plant.
 void evaluate_on_mission(const TrackingProblem& problem, MeasuredController& row) {
   if (row.tuning.status == MeasuredTuningStatus::unstable) return;
   const control::Controller& controller = row.tuning.controller;

@@ -6,7 +6,7 @@
 namespace boresight::design {
 namespace {
 
-// Places in a law's gains.
+// Places in a controller's gains.
 struct TradedGains {
   std::size_t rate = 0, position = 0;
 };

@@ -30,7 +30,7 @@ ProposedDesign describe(const ProposedAntenna& proposed, std::size_t place) {
   return candidate;
 }
 
-// In rising cost, by the rms of those with a usable law and a cost.
+// In rising cost, by the rms of those with a usable controller and a cost.
 std::vector<std::size_t> front_of(const std::vector<ProposedDesign>& candidates) {
   std::vector<std::size_t> places;
   std::vector<CostPoint> points;

@@ -9,7 +9,7 @@
 namespace boresight::design {
 namespace {
 
-// A law that can be held on draws; none where no such one of that structure was tuned.
+// A controller that can be evaluated on draws; none where no such one of that structure was tuned.
 std::optional<std::size_t> controller_of(const ProposedDesign& candidate,
                                          const std::string& structure) {
   const auto found =
@@ -21,7 +21,8 @@ std::optional<std::size_t> controller_of(const ProposedDesign& candidate,
   return static_cast<std::size_t>(found - candidate.controllers.begin());
 }
 
-// Columns of rms by candidate and law; those that the choice has not judged yet are held here.
+// Columns of rms by candidate and controller; those that the choice has not judged yet are held
+// here.
 class Columns {
  public:
   Columns(const ProposalDecision& decision, Eigen::MatrixXd rms,

@@ -55,7 +55,8 @@ class Study {
     unit.controllers.push_back(std::move(row));
   }
 
-  // Starts each law of a unit from those of its parts, so that none is worse than what it extends.
+  // Starts each controller of a unit from those of its parts, so that none is worse than what it
+  // extends.
   void improve(TuningUnit& unit, const std::vector<TuningUnit>& units) const {
     bool other_nominal = false;
     for (auto& row : unit.controllers) {
@@ -75,7 +76,7 @@ class Study {
     }
   }
 
-  // What the laws mean at the sky and on the ensemble.
+  // What the controllers mean at the sky and on the ensemble.
   void finish(TuningUnit& unit) const {
     for (auto& row : unit.controllers) {
       finish(row);
@@ -221,7 +222,7 @@ std::vector<TuningUnit> units_of(const Mission& mission, std::vector<NamedStruct
   return units;
 }
 
-// Whether a tuned law is good for everything but for its verification.
+// Whether a tuned controller is good for everything but for its verification.
 bool only_unverified(const std::vector<TunedController>& controllers) {
   const auto tuned = [](const TunedController& row) { return row.tuned_for != TunedFor::present; };
   return std::ranges::any_of(controllers,

@@ -120,8 +120,8 @@ bool EnsembleSearch::carry_more(bool feasible) {
       ++unstable;
     }
   }
-  // The worst member of each goal that a member outside breaks. Of an infeasible law: what stands
-  // above the worst of those inside.
+  // The worst member of each goal that a member outside breaks. Of an infeasible controller: what
+  // stands above the worst of those inside.
   double threshold = 1.0 + rounding;
   if (!feasible) {
     for (const std::size_t i : active_) {

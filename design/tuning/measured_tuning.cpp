@@ -50,9 +50,9 @@ void check(const MeasuredProblem& problem, const MeasuredConstraints& goals,
   }
 }
 
-// Adds least favourable responses of the last law to the measured one, searches again, and so on
-// until the law stays where it is. result.law: in, the best for the measured response; out, the
-// best that holds within the confidence, if any does.
+// Adds least favourable responses of the last controller to the measured one, searches again, and
+// so on until the controller stays where it is. result.controller: in, the best for the measured
+// response; out, the best that holds within the confidence, if any does.
 void make_confident(const MeasuredProblem& problem, const MeasuredConstraints& goals,
                     const MeasuredTuningOptions& options, MeasuredSearch& tuning,
                     std::vector<MeasuredMember>& members, MeasuredTuningResult& result) {
@@ -67,13 +67,13 @@ void make_confident(const MeasuredProblem& problem, const MeasuredConstraints& g
     if (members.size() > 1 + (rounds_carried - 1) * breaks) {
       members.erase(members.begin() + 1, members.begin() + 1 + static_cast<std::ptrdiff_t>(breaks));
     }
-    // A law whose errors reach far is led towards a better one by smaller errors first.
+    // A controller whose errors reach far is led towards a better one by smaller errors first.
     const double step = first_step + step_growth * round;
     const double radius = result.radius * std::min(1.0, step / std::max(largest_error, step));
     for (std::size_t b = 0; b < breaks; ++b) {
       members.push_back(tuning.least_favourable(controller, b, radius, grid));
     }
-    // From the law itself the optimiser may stall where peaks change places.
+    // From the controller itself the optimiser may stall where peaks change places.
     const auto here = logarithms(controller.gains);
     std::vector<std::vector<double>> starts{here, nominal};
     if (before != nominal) starts.push_back(before);
@@ -101,7 +101,8 @@ void make_confident(const MeasuredProblem& problem, const MeasuredConstraints& g
   }
 }
 
-// Shares by evaluating the law on the measured band alone and on what lies below and above it.
+// Shares by evaluating the controller on the measured band alone and on what lies below and above
+// it.
 void find_fractions(const MeasuredProblem& problem, MeasuredTuningResult& result) {
   const Eigen::ArrayXd grid = measured_grid(problem, problem.points_per_decade, true);
   const double lowest = problem.channels.lowest_frequency() / two_pi;

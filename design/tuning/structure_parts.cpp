@@ -26,7 +26,7 @@ double middle(double lower, double upper) {
   return std::sqrt(lower * upper);
 }
 
-// Of gain k of a block that the other law does not have.
+// Of gain k of a block that the other controller does not have.
 double neutral_gain(const LoopBlock& block, std::size_t k) {
   const GainDescription& gain = block.gains[k];
   switch (block.kind) {

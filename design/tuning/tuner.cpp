@@ -166,7 +166,8 @@ std::vector<std::vector<double>> global_search(std::vector<PlantEvaluator>& plan
   return points;
 }
 
-// Prices of what holds the law, by the multipliers of the goals that are active on any plant.
+// Prices of what holds the controller, by the multipliers of the goals that are active on any
+// plant.
 void describe_limits(std::vector<PlantEvaluator>& plants, const EnsembleSearch& ensemble,
                      TuningResult& result) {
   const auto& descriptions = control::gain_descriptions(result.controller.structure);

@@ -50,7 +50,7 @@ std::optional<double> frequency_of(const Swing& swing, double interval) {
   return static_cast<double>(passages - 1) / (interval * static_cast<double>(last - first));
 }
 
-// Steps at the start (rad at the sky): a loop may hunt only once it was disturbed.
+// Steps at the start (rad at the sky): a loop may limit-cycle only once it was disturbed.
 constexpr std::array<double, limit_cycle_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
                                                         8.0 * millidegree};
 

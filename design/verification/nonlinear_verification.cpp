@@ -282,7 +282,7 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   for (Index k = 0; k < after.size(); ++k) {
     if (std::abs(after[k]) > options.settled_error) out = k;
   }
-  // Not one that hunts through the bound and happens to be within it at the end.
+  // Not one that limit-cycles through the bound and happens to be within it at the end.
   const Index long_enough =
       whole_samples(std::min(10.0, 0.5 * options.settling_watched), loop.sample_time);
   if (after.size() - (out + 1) >= long_enough) {

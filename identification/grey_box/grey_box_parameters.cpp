@@ -272,8 +272,8 @@ void GreyBoxParameters::add_modes(const DriveKnowledge& knowledge) {
   for (std::size_t i = 0; i < count; ++i) {
     const numerics::Uncertain& f = knowledge.locked_rotor_frequencies[i];
     positive(f.value, "locked-rotor frequency");
-    // On a locked rotor all of the antenna hangs on springs: what seems to turn rigidly is the mass
-    // of the modes that are not stated, by the usual rule of modal analysis a tenth; the lower
+    // On a locked rotor all of the antenna depends on springs: what seems to turn rigidly is the
+    // mass of the modes that are not stated, by the usual rule of modal analysis a tenth; the lower
     // modes are the heavier ones. A larger rigid part would have to come out of the motors'
     // inertia, which is known well, and so out of the transducers' gains.
     const double rank = static_cast<double>(i + 1);

@@ -140,7 +140,7 @@ std::vector<DriveEstimate> posterior_samples(const GreyBoxParameters& parameters
     e.friction.saturating_torque *= friction;
     e.friction.viscous_friction *= friction;
     e.coulomb_level *= friction;
-    // A frequency goes with the root of a stiffness over an inertia.
+    // A frequency scales with the root of a stiffness over an inertia.
     const double frequency = std::exp(0.5 * posterior.torque_discrepancy * more.imag());
     e.mode_frequency *= frequency;
     e.lowest_frequency *= frequency;

@@ -91,7 +91,7 @@ OilRelation fit_oil_relation(const WindowedTransforms& torque, const WindowedTra
 
 void add_hydraulic_mode(DriveResponse& response, const OilRelation& oil) {
   const auto& impedance = response.impedance;
-  // What hangs on modes above the band counts as rigid.
+  // What depends on modes above the band counts as rigid.
   double rigid = impedance.inertia.value;
   for (const auto& mode : impedance.modes) rigid -= mode.inertia.value;
   const ModeNumbers nominal{oil.stiffness.value,

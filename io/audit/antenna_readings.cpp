@@ -112,7 +112,7 @@ void add_resonance(const Case& antenna, double frequency, double other, Readings
   const double own = oil_stiffness(antenna);
   const double inertia = readings.fixed_inertia() + antenna_inertia(antenna);
   const double found = plant::inertia_from_resonance(own, frequency);
-  // The oil spring goes with the inertia on it, at one frequency.
+  // The oil spring scales with the inertia on it, at one frequency.
   const double factor = inertia / found;
   AntennaReading& softer =
       readings.add(ReadingKind::stiffness_by_resonance, "masses right, stiffness from resonance",

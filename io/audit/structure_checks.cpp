@@ -48,7 +48,7 @@ double agreeing_factor(const Case& antenna, const Quantity& stiffness) {
   const auto stated = [](const Quantity& quantity) {
     return quantity.uncertainty_given ? relative_uncertainty(quantity) : 0.0;
   };
-  // The plant's goes with the inertia and with the square of the frequencies.
+  // The plant's scales with the inertia and with the square of the frequencies.
   const double uncertainty = std::hypot(stated(stiffness), stated(antenna.antenna->inertia),
                                         2.0 * stated(antenna.structure->locked_rotor_frequency));
   return std::max(minimum, 1.0 + deviations * uncertainty);
@@ -96,7 +96,7 @@ void check_structural_bound(const Case& antenna, PhysicalChecks& found) {
 }
 
 // A mode of little inertia that takes nearly all of wind or beam is soft under it: its modal
-// stiffness goes with its inertia.
+// stiffness scales with its inertia.
 void check_structural_fractions(const Case& antenna, PhysicalChecks& found) {
   constexpr double large = 0.5, clear_factor = 3.0;
   auto& check = begin_check(found, "structural_shares", "structure.mode");

@@ -102,7 +102,7 @@ class Records {
     const auto& tests = *section_.impulse->slow_ramp;
     return offset ? tests.offset : tests.coulomb;
   }
-  // The line a motor hangs on, the mean of its inlet and outlet where both rang.
+  // The line a motor depends on, the mean of its inlet and outlet where both rang.
   std::optional<Interval> line(std::size_t motor, bool modulus) const {
     std::vector<Interval> both;
     if (section_.slosh.empty()) return std::nullopt;

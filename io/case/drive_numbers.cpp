@@ -38,7 +38,7 @@ control::DrivenLoad driven_load(const Case& antenna) {
 Quantity solid_disk(const Quantity& radius, const Quantity& length, const Quantity& density) {
   const double value = plant::disk_inertia(radius.value, length.value, density.value);
   Quantity inertia = derived_quantity(radius, Kind::inertia, value, "kg.m2");
-  // J goes with R^4, H and rho.
+  // J scales with R^4, H and rho.
   inertia.standard_uncertainty =
       value * std::hypot(4.0 * relative_uncertainty(radius), relative_uncertainty(length),
                          relative_uncertainty(density));

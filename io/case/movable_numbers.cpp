@@ -32,7 +32,7 @@ void add(std::vector<Quantity*>& places, std::optional<Quantity>& quantity) {
   if (quantity) places.push_back(&*quantity);
 }
 
-// Whether the case states the gear train's stiffness in the place of the locked-rotor frequency.
+// Whether the case states the gear train's stiffness instead of the locked-rotor frequency.
 bool frequency_by_stiffness(const StructureEntry& structure) {
   return structure.gear_stiffness &&
          structure.locked_rotor_frequency.key == structure.gear_stiffness->key;

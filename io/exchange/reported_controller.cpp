@@ -119,7 +119,7 @@ ReportedController controller_of_report(const Case& antenna, const std::string& 
     Json report = Json::parse(text);
     use_present_keys(report, path);
     if (report.contains("tuned")) {
-      // What is held on samples may miss its goals.
+      // What is evaluated on samples may miss its goals.
       const Json* best = recommended_row(report.at("tuned").at("controllers"), structure,
                                          design::Fitness::unverified);
       if (best == nullptr) {

@@ -96,7 +96,7 @@ double changed(const ProposedChange& change, double before) {
   return change.multiplies ? change.number.value * before : change.number.value;
 }
 
-// A number of a case with the change's word in the place of its own.
+// A number of a case with the change's word instead of its own.
 Quantity changed(const ProposedChange& change, const Quantity& before) {
   if (!change.multiplies) return change.number;
   Quantity after = before;

@@ -17,7 +17,7 @@ namespace boresight::numerics {
 namespace {
 
 // Nested uniform scrambling of one coordinate: every binary digit is flipped or not by a coin that
-// hangs on the digits before it. Points tell one another apart by their first 24 digits at most;
+// depends on the digits before it. Points tell one another apart by their first 24 digits at most;
 // the rest is chance.
 double scrambled(std::uint64_t digits, std::uint64_t stream) {
   constexpr int nested = 24;

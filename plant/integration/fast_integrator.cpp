@@ -12,8 +12,8 @@ namespace boresight::plant {
 namespace {
 
 constexpr Eigen::Index stages = collocation_stages;
-// The error goes with the sixth power of the step where the channels are smooth, at a kink with the
-// second: a doubled step is tried when this little of the tolerance is used.
+// The error scales with the sixth power of the step where the channels are smooth, at a kink with
+// the second: a doubled step is tried when this little of the tolerance is used.
 constexpr double easy = 1.0 / 50.0;
 constexpr int patience = 6;  // steps after a refusal before a longer one is tried
 // What the inner stages may be off, relative to the end of the step.

@@ -92,7 +92,7 @@ Eigen::Index reduce(Eigen::MatrixXd& a, Eigen::VectorXd& b, Eigen::MatrixXd& c) 
 }
 
 // What a substitution leaves: the element of the first row, the size of the terms it is the sum
-// of, and the output that goes with x.
+// of, and the output that scales with x.
 template <typename Lane>
 struct Substitution {
   Lane pivot_re, pivot_im, size, output_re, output_im;

@@ -28,7 +28,7 @@ constexpr std::array<std::string_view, AntennaChannels::event_count> names{
     "upper flank meets the opposite side of its backlash"};
 
 constexpr double relative_difference = 1e-5;
-// To one side, where the error goes with the difference itself.
+// To one side, where the error scales with the difference itself.
 constexpr double one_sided_difference = 1e-7;
 
 // Breakaway and Coulomb torque bound each other.

@@ -80,8 +80,7 @@ Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAnt
   options.interrupted = interrupted;
   const auto chosen = recommended_controller(designed, options);
   return {design::controller_of(
-      chosen.controller, fmt::format("{}, {}", chosen.controller.structure.name(), chosen.source),
-      sample_time)};
+      chosen.controller, fmt::format("{}, {}", chosen.structure, chosen.source), sample_time)};
 }
 
 std::string text_of(const std::string& path) {

@@ -169,24 +169,23 @@ Sentences decide_inertia(const MatchSection& section, bool others_limit_cycle, b
 namespace {
 
 // The one controller that every command recommends for the motors as built.
-std::string recommended_first(const design::TuningStudy& study) {
+std::string recommended_first(const design::TuningStudy& study,
+                              std::string_view of = "Recommended") {
   const TunedController* controller = recommended_tuned_controller(study);
   if (controller == nullptr) return "No controller is recommended: no tuned controller is fit.";
   const bool simulated = controller->in_time && std::isfinite(controller->in_time->rms());
   if (simulated && controller->in_time->expected) {
     const auto& expected = *controller->in_time->expected;
-    return fmt::format(
-        "Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, simulated ({}).",
-        name_and_purpose(*controller), mdeg(expected.rms.value), controller->wind_speed,
-        interval_text(expected, controller->boresight_rms));
+    return fmt::format("{}: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, simulated ({}).", of,
+                       name_and_purpose(*controller), mdeg(expected.rms.value),
+                       controller->wind_speed, interval_text(expected, controller->boresight_rms));
   }
-  return fmt::format("Recommended: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.",
-                     name_and_purpose(*controller),
-                     mdeg(simulated ? controller->in_time->rms() : controller->boresight_rms),
-                     controller->wind_speed,
-                     simulated
-                         ? fmt::format("simulated ({:.3f} linear)", mdeg(controller->boresight_rms))
-                         : std::string("linear plant, not simulated"));
+  return fmt::format(
+      "{}: {}, {:.3f} mdeg rms per axis in {:.3g} m/s wind, {}.", of, name_and_purpose(*controller),
+      mdeg(simulated ? controller->in_time->rms() : controller->boresight_rms),
+      controller->wind_speed,
+      simulated ? fmt::format("simulated ({:.3f} linear)", mdeg(controller->boresight_rms))
+                : std::string("linear plant, not simulated"));
 }
 
 void add_ties(const design::TuningStudy& study, const TunedController* recommended,
@@ -208,7 +207,8 @@ std::vector<std::string> decision(const MatchSection& section) {
       decide_inertia(kept, kept.series.size() < section.series.size(), !motors.empty());
   if (!motors.empty()) sentences.insert(sentences.begin(), std::move(motors));
   if (section.tuned_as_built) {
-    sentences.insert(sentences.begin(), "As built: " + recommended_first(*section.tuned_as_built));
+    sentences.insert(sentences.begin(),
+                     recommended_first(*section.tuned_as_built, "Recommended as built"));
     add_ties(*section.tuned_as_built, recommended_tuned_controller(*section.tuned_as_built),
              sentences);
   }

@@ -62,18 +62,18 @@ TEST(SharedWinds, PreparesTheRecordsOfOneWindOnce) {
   const SharedWinds::Records records{setting.problem, setting.loop, 0.0, 10.0};
   const auto first = winds.courses(records);
   EXPECT_EQ(winds.courses(records), first);
-  const auto squares = winds.line_squares(records, 400, 3, 5, 2);
-  EXPECT_EQ(winds.line_squares(records, 400, 3, 5, 1), squares);
-  EXPECT_EQ(squares->rows(), 199);
-  EXPECT_NE(winds.line_squares(records, 400, 4, 5, 1), squares);
+  const auto squares = winds.line_squares(records, 401, 3, 5, 2);
+  EXPECT_EQ(winds.line_squares(records, 401, 3, 5, 1), squares);
+  EXPECT_EQ(squares->rows(), 200);
+  EXPECT_NE(winds.line_squares(records, 401, 4, 5, 1), squares);
   TrackingProblem stronger = setting.problem;
   stronger.wind.mean_speed *= 2.0;
   EXPECT_NE(winds.courses({stronger, setting.loop, 0.0, 10.0}), first);
   // By Parseval, of the seed's own gusts about their mean.
-  const Eigen::VectorXd gusts = first->gusts(4).tail(400);
+  const Eigen::VectorXd gusts = first->gusts(4).tail(401);
   const double variance = (gusts.array() - gusts.mean()).square().mean();
-  const double by_lines = 2.0 * squares->col(1).sum() / (400.0 * 400.0);
-  EXPECT_NEAR(by_lines / variance, 1.0, 1e-3);  // without the line of half the sampling rate
+  const double by_lines = 2.0 * squares->col(1).sum() / (401.0 * 401.0);
+  EXPECT_NEAR(by_lines / variance, 1.0, 1e-12);  // an odd number of samples: no line is left out
 }
 
 // Ten records of which each has the mean square that the linear loop gives it, and 100 winds, about

@@ -41,7 +41,7 @@ struct DecidingInput {
 };
 
 void describe_probability(io::Visitor& v, std::string_view key, const design::Probability& chance,
-                     std::string_view meaning) {
+                          std::string_view meaning) {
   v.group(key, meaning, [&] {
     v.defined_as("probability", "A probability with its 95 % interval, for the number of samples.");
     v.number("value", chance.value, unit::ratio, "The probability.", known);
@@ -87,7 +87,7 @@ void describe_option(io::Visitor& v, const NamedOption& option) {
            "Fraction of samples in which it is on the Pareto front of cost and rms; null without a "
            "cost.");
   describe_probability(v, "outside_goals", option.random_samples.outside_goals,
-                  "Unstable, or a peak or the control effort beyond its goal.");
+                       "Unstable, or a peak or the control effort beyond its goal.");
   describe_probability(v, "unstable", option.random_samples.unstable, "Of the loop.");
 }
 

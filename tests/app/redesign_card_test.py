@@ -71,10 +71,10 @@ PLACES = {"Recommended": ("tuning",), "Load": ("tuning",), "Do not load": ("tuni
           "Next test": ("tuning",)}
 # How the key of a value ends whose number stands before a unit, and what makes it that unit.
 UNITS = {"mdeg": {"_mdeg": 1}, "m/s": {"_m_per_s": 1}, "kg m2": {"_kg_m2": 1}, "deg": {"_deg": 1}, "dB": {"_dB": 1},
-         "rad/s": {"_rad_per_s": 1}, "Hz": {"_Hz": 1, "_rad_per_s": 0.5 / math.pi}, "%": {"_1": 100, "value": 100},
-         "": {"": 1}}
-FIGURE = re.compile(r"(?<![\w.])(?P<number>\d+(?:\.\d+)?)(?!\w)(?=(?: (?:to|and) [\d.]+)? ?"
-                    r"(?P<unit>mdeg|m/s|kg m2|deg|dB|rad/s(?!\w)|Hz|%)?)")
+         "rad/s": {"_rad_per_s": 1}, "1/s": {"_per_s": 1}, "Hz": {"_Hz": 1, "_rad_per_s": 0.5 / math.pi},
+         "%": {"_1": 100, "value": 100}, "": {"": 1}}
+FIGURE = re.compile(r"(?<![\w.])(?P<number>\d+(?:\.\d+)?)(?!\w|/[a-z])(?=(?: (?:to|and) [\d.]+)? ?"
+                    r"(?P<unit>mdeg|m/s|kg m2|deg|dB|rad/s(?!\w)|1/s|Hz|%)?)")
 
 
 def shown_as(number, unit, key, value):
@@ -99,7 +99,7 @@ def figures_of(label, text):
 
 
 def is_in(report, label, number, unit):
-    part = {name: report[name] for name in PLACES[label]} if label in PLACES else {
+    part = {name: report[name] for name in PLACES[label] if name in report} if label in PLACES else {
         name: value for name, value in report.items() if name != "card"}
     return any(shown_as(number, unit, key, value) for key, value in numbers(part))
 

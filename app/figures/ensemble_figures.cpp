@@ -66,9 +66,9 @@ Figure step_figure(const DrawnController& drawn, const design::EnsembleCurves& c
   panel.series.push_back(banded(range_name(curves), numbers(step.time), step.response));
   Eigen::Index at = 0;
   const double largest = step.response.nominal.maxCoeff(&at);
-  if (largest > 1.0) {
+  if (const double overshoot = step.overshoot(); overshoot > 0.0) {
     panel.marks.push_back(
-        {step.time[at], largest, fmt::format("overshoot {:.0f} %", 100.0 * (largest - 1.0))});
+        {step.time[at], largest, fmt::format("overshoot {:.0f} %", 100.0 * overshoot)});
   }
   panel.lines.push_back(horizontal_line(1.0, "command"));
   figure.panels.push_back(std::move(panel));

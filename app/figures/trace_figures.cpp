@@ -45,14 +45,15 @@ FigurePanel error_panel(std::string what) {
 // What the present gains make of the same record.
 std::string present_sentence(const TimeDomainSection& section) {
   if (!section.present) return {};
-  const auto& [structure, in_wind, retuned] = *section.present;
-  const std::string label = retuned ? present_label(structure, retuned)
-                                    : fmt::format("the present gains ({})", structure);
-  if (in_wind.boresight.size() == 0) {
+  const auto& present = *section.present;
+  const std::string label = present.retuned
+                                ? present_label(present.structure, present.retuned)
+                                : fmt::format("the present gains ({})", present.structure);
+  if (present.in_wind.boresight.size() == 0) {
     return fmt::format(" With {} the run did not complete.", label);
   }
   return fmt::format(" With {}: {:.3f} mdeg rms in the same record.", label,
-                     rms_of(in_wind.boresight));
+                     rms_of(present.in_wind.boresight));
 }
 
 Figure wind_figure(const TimeDomainSection& section, const std::string& heading) {

@@ -68,6 +68,10 @@ std::vector<InputEffect> input_effects(const io::Case& antenna,
   return effects;
 }
 
+design::RmsRange combined_range(const std::vector<InputEffect>& effects, double rms) {
+  return design::combined_range({effects.begin(), effects.end()}, rms);
+}
+
 std::string measure_first(const std::vector<InputEffect>& effects, double rms,
                           const std::optional<TimeDomainSection>& time_domain,
                           bool friction_measured) {

@@ -25,6 +25,9 @@ std::vector<InputEffect> input_effects(const io::Case& antenna,
                                        const design::Constraints& goals, double rms,
                                        std::size_t maximum, unsigned threads);
 
+/// design::combined_range of the effects (rad).
+design::RmsRange combined_range(const std::vector<InputEffect>& effects, double rms);
+
 /// What friction alone adds to the simulated rms (rad), where that is a telling_change of `rms`,
 /// the linear one; 0 elsewhere.
 double telling_friction(const std::optional<TimeDomainSection>& time_domain, double rms);

@@ -11,6 +11,7 @@ namespace boresight::app {
 struct NextTest {
   std::string key;   // of the case's number; empty: friction, by what the simulation shows of it
   std::string test;  // what to do, with the antenna time it takes
+  std::string quantity;  // what it measures, in words; the key where they are not known
 };
 
 /// None where no number moves the rms by what decides anything, and friction is measured or costs

@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/interpretation_verdicts.hpp>
 #include <boresight/app/redesign/matching_verdict.hpp>
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/next_test.hpp>
-#include <boresight/app/report/expected_rms_wording.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/redesign_card.hpp>
@@ -105,7 +105,7 @@ std::string_view reason(Doubt doubt) {
     case Doubt::plant_not_identified:
       return "no records";
     case Doubt::input_decides:
-      return "one input moves the rms by over a fifth";
+      return "one input moves the rms by over 20 %";
   }
   return "";
 }
@@ -149,20 +149,32 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
           std::string(loops)};
 }
 
+// "; inputs 0.270 to 0.500, 1 sigma"; empty without any.
+std::string input_range_text(const TuningSection& section) {
+  if (section.input_effects.empty()) return "";
+  const auto range = combined_range(section.input_effects, section.design.boresight_rms);
+  return fmt::format("; inputs {} to {}, 1 sigma", mdeg(range.lower),
+                     std::isfinite(range.upper) ? mdeg(range.upper) : "unstable");
+}
+
 CardLine pointing_line(const Report& report, const TuningSection& section) {
   const auto tightest = std::ranges::min_element(
       section.budgets, {}, [](const BudgetResult& one) { return one.budget.rms; });
   const design::SimulatedRms* expected = expected_rms(report);
+  const std::string by_inputs = input_range_text(section);
   std::string text =
-      expected != nullptr ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({})",
-                                        mdeg(expected->rms.value), report.time_domain->wind_speed,
-                                        interval_text(*expected, section.design.boresight_rms))
+      expected != nullptr
+          ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated (95 % {} to {} over {} winds{})",
+                        mdeg(expected->rms.value), report.time_domain->wind_speed,
+                        mdeg(expected->rms.lower), mdeg(expected->rms.upper), expected->records,
+                        by_inputs)
       : simulated(report)
-          ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated ({} linear)",
+          ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated (one record{})",
                         mdeg(report.time_domain->result.wind.boresight_rms),
-                        report.time_domain->wind_speed, mdeg(section.design.boresight_rms))
-          : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated",
-                        mdeg(section.design.boresight_rms), section.design_speed);
+                        report.time_domain->wind_speed, by_inputs)
+          : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated{}",
+                        mdeg(section.design.boresight_rms), section.design_speed,
+                        by_inputs.empty() ? "" : " (" + by_inputs.substr(2) + ")");
   if (section.effect.amplitude > 0.0 && std::isfinite(section.effect.factor)) {
     text += fmt::format("; {} with the limit cycle",
                         mdeg(section.effect.rms(section.design.boresight_rms)));
@@ -172,7 +184,8 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
     text += fmt::format("; budget {}, {}", mdeg(tightest->budget.rms), met ? "met" : "MISSED");
   }
   if (!section.ties.empty()) {
-    text += fmt::format("; a tie with {}", fmt::join(section.ties, "; "));
+    text += fmt::format("; a tie with {}", section.ties.front());
+    if (section.ties.size() > 1) text += fmt::format(" and {} more", section.ties.size() - 1);
   }
   return {report.axis.name == "azimuth" ? "Cross-elevation" : "Error per axis", text,
           std::string(simulated(report) ? in_time : loops)};
@@ -205,9 +218,9 @@ CardLine present_line(const Report& report, const TuningSection& section) {
                           in_wind ? "simulated" : "linear plant"));
 }
 
-// The three that matter first: required ones before others, the tightest before wider ones.
-CardLine budget_line(const Report& report, const TuningSection& section) {
-  constexpr std::size_t shown = 3;
+// The `shown` that matter first: required ones before others, the tightest before wider ones. The
+// probability of the first.
+CardLine budget_line(const Report& report, const TuningSection& section, std::size_t shown) {
   std::vector<BudgetResult> order = section.budgets;
   std::ranges::stable_sort(order, {}, [](const BudgetResult& one) {
     return std::pair(!one.budget.wind_speed.has_value(), one.budget.rms);
@@ -216,16 +229,17 @@ CardLine budget_line(const Report& report, const TuningSection& section) {
   std::vector<std::string> budgets;
   for (const auto& result : order) {
     const double reached = reached_wind_speed(section, result);
-    std::string text = fmt::format("{} {} {}", result.budget.band, mdeg(result.budget.rms),
+    std::string text = fmt::format("{} {} ({}) {}", result.budget.band, mdeg(result.budget.rms),
+                                   result.budget.name,
                                    !(reached > 0.0)         ? std::string("in no wind")
                                    : std::isfinite(reached) ? fmt::format("to {:.1f} m/s", reached)
                                                             : std::string("in every wind"));
-    if (result.budget.wind_speed) {
-      text += fmt::format(" (required {:.3g}{})", *result.budget.wind_speed,
-                          result.plants_met && section.ensemble
-                              ? fmt::format(", on {} of {} models", *result.plants_met,
-                                            section.ensemble->members.size())
-                              : "");
+    const auto& needed = result.budget.wind_speed;
+    if (needed) text += fmt::format(" (required {:.3g})", *needed);
+    if (budgets.empty() && result.probability) {
+      text += fmt::format(", probability {:.2f} ({:.2f} to {:.2f}) over the models at {:.3g} m/s",
+                          result.probability->value, result.probability->lower,
+                          result.probability->upper, needed.value_or(section.design_speed));
     }
     budgets.push_back(std::move(text));
   }
@@ -244,11 +258,14 @@ CardLine stability_line(const TuningSection& section) {
     phase = std::min(phase, margins.phase_margin_deg);
     gain = std::min(gain, margins.increasing_gain_margin);
   }
-  std::string text = fmt::format("Ms {:.2f}, phase {:.0f} deg", peak, phase);
-  if (std::isfinite(gain)) text += fmt::format(", gain {:.1f} dB", 20.0 * std::log10(gain));
+  std::string text = fmt::format("Ms {:.2f}, PM {:.0f} deg", peak, phase);
+  if (std::isfinite(gain)) text += fmt::format(", GM {:.1f} dB", 20.0 * std::log10(gain));
   text += " (worst)";
+  if (section.curves) {
+    text += fmt::format("; overshoot {:.0f} %", 100.0 * section.curves->position_step.overshoot());
+  }
   if (section.ensemble) {
-    text += fmt::format("; constraints met on {}/{} models", section.ensemble->within_constraints,
+    text += fmt::format("; met on {}/{} models", section.ensemble->within_constraints,
                         section.ensemble->members.size());
     if (const std::size_t unstable = unstable_members(section); unstable > 0) {
       text += fmt::format(", {} UNSTABLE", unstable);
@@ -298,7 +315,7 @@ CardLine flywheel_line(const MatchingSection& section) {
   const std::string loops_compared =
       fmt::format(" ({}, linear)", control::to_string(series.structure));
   std::string text =
-      fmt::format("{} mdeg with {} as built, {} with {}", at(series, built),
+      fmt::format("{} mdeg at {} as built, {} at {}", at(series, built),
                   section.rows[built].label, at(series, end), section.rows[end].label);
   const bool better = verdict.change(series, end) < -negligible_change;
   if (verdict.flat() || (!better && !verdict.friction_decides())) {
@@ -307,7 +324,7 @@ CardLine flywheel_line(const MatchingSection& section) {
   if (const MatchingSeries* other = verdict.other_friction();
       other != nullptr && verdict.friction_decides()) {
     return {"Flywheels",
-            fmt::format("keep until friction is measured: {}; {} and {} with the {}{}", text,
+            fmt::format("keep until friction is known: {}; {} and {} with {}{}", text,
                         at(*other, built), at(*other, end), other->friction, loops_compared),
             evidence};
   }
@@ -367,34 +384,39 @@ CardLine test_line(const Report& report, const TuningSection& section) {
     return {"Next test", test->test + ": friction decides the simulated rms", std::string(in_time)};
   }
   const auto& effect = section.input_effects.front();
-  const auto rms = [](double value) {
-    return std::isfinite(value) ? mdeg(value) : std::string("unstable");
-  };
+  const std::vector<design::NumberEffect> alone{effect};
+  const auto range = combined_range(alone, section.design.boresight_rms);
   return {"Next test",
-          fmt::format("{}: {} moves the rms from {} to {} mdeg", test->test, test->key,
-                      rms(effect.low_rms), rms(effect.high_rms)),
+          fmt::format("{}: rms {} to {} mdeg over {}", test->test, mdeg(range.lower),
+                      std::isfinite(range.upper) ? mdeg(range.upper) : "unstable", test->quantity),
           std::string(loops)};
 }
 
 CardLine confidence_line(const Report& report, const TuningSection& section) {
   const auto found = confidence(report, section);
   std::vector<std::string_view> reasons;
-  for (const Doubt doubt : found.doubts) reasons.push_back(reason(doubt));
+  const auto doubted = [&](Doubt doubt) {
+    return std::ranges::find(found.doubts, doubt) != found.doubts.end();
+  };
+  for (const Doubt doubt : found.doubts) {
+    // Said with the one before it.
+    if (doubt == Doubt::resonance_disagrees && doubted(Doubt::inertias_disagree)) continue;
+    if (doubt == Doubt::input_decides && doubted(Doubt::interpretation_decides)) continue;
+    const bool both = doubt == Doubt::inertias_disagree && doubted(Doubt::resonance_disagrees);
+    reasons.push_back(both ? "inertias and resonance contradict" : reason(doubt));
+  }
   std::string text(to_string(found.grade));
   if (!reasons.empty()) text += fmt::format(": {}", fmt::join(reasons, "; "));
   return {"Confidence", text, std::string(inputs)};
 }
 
-}  // namespace
-
-std::vector<CardLine> redesign_card(const Report& report) {
-  if (!report.tuning) return {};
+std::vector<CardLine> card_with_budgets(const Report& report, std::size_t budgets) {
   const TuningSection& section = *report.tuning;
   std::vector<CardLine> card{controller_line(report, section)};
   if (section.design.usable()) {
     card.push_back(pointing_line(report, section));
     card.push_back(present_line(report, section));
-    card.push_back(budget_line(report, section));
+    card.push_back(budget_line(report, section, budgets));
     card.push_back(stability_line(section));
     if (report.time_domain) card.push_back(limit_cycle_line(*report.time_domain));
   }
@@ -402,6 +424,21 @@ std::vector<CardLine> redesign_card(const Report& report) {
   card.push_back(settle_line(report));
   card.push_back(test_line(report, section));
   card.push_back(confidence_line(report, section));
+  return card;
+}
+
+}  // namespace
+
+std::vector<CardLine> redesign_card(const Report& report) {
+  if (!report.tuning) return {};
+  // On one screen: of a controller of many gains fewer budgets are shown.
+  constexpr std::ptrdiff_t most_lines = 16;
+  std::vector<CardLine> card;
+  for (std::size_t budgets = 3; budgets > 0; --budgets) {
+    card = card_with_budgets(report, budgets);
+    // Behind a blank line.
+    if (std::ranges::count(to_text(document_of(card)), '\n') <= 1 + most_lines) break;
+  }
   return card;
 }
 

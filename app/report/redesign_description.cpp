@@ -170,7 +170,7 @@ void describe_present(io::Visitor& v, const TuningSection& section) {
            v.number("boresight_rms", controller.design.boresight_rms, unit::millidegree,
                     "Boresight error; null of an unstable loop.", positive);
            v.number("simulated_rms", controller.simulated_rms, unit::millidegree,
-                    "Expected on the nonlinear antenna; null of gains of the case, and if it was "
+                    "Expected on the nonlinear antenna; null if it was "
                     "not simulated.",
                     positive);
          });
@@ -183,7 +183,6 @@ void describe_inputs(io::Visitor& v, const TuningSection& section) {
   constexpr io::KeyUnit as_named{.suffix = "si"};
   v.list("input_effects", section.input_effects,
          "The numbers of the case on which the controller's rms depends most, each moved alone "
-         "with the "
          "with fixed gains; the largest effect first.",
          [&](const InputEffect& effect) {
            v.text("key", effect.quantity.key, "Its place in the case file.");
@@ -206,6 +205,14 @@ void describe_inputs(io::Visitor& v, const TuningSection& section) {
            v.number("higher_boresight_rms", effect.high_rms, unit::millidegree,
                     "With the number higher; null if unstable.", positive);
          });
+  v.group_if("input_range", !section.input_effects.empty(),
+             "Range of the rms over all of these together, in quadrature; null without any.", [&] {
+               const auto range =
+                   combined_range(section.input_effects, section.design.boresight_rms);
+               v.number("lower", range.lower, unit::millidegree, "Lower end.", positive);
+               v.number("upper", range.upper, unit::millidegree,
+                        "Upper end; null if one of them makes the loop unstable.", positive);
+             });
 }
 
 void describe_budgets(io::Visitor& v, const TuningSection& section) {
@@ -226,6 +233,16 @@ void describe_budgets(io::Visitor& v, const TuningSection& section) {
         v.count("plants_met", result.plants_met,
                 "Plants of the ensemble on which it is met in the wind up to which the case "
                 "needs it, supply torque not counted; null without such a wind or an ensemble.");
+        v.optional_group(
+            "probability", result.probability,
+            "That a plant of the ensemble meets it in the wind up to which the case needs it, or "
+            "in the design wind if it states none, with the 95 % interval for the number of "
+            "plants; null without an ensemble.",
+            [&](const design::Probability& found) {
+              v.number("value", found.value, unit::ratio, "Plants that meet it over all.");
+              v.number("lower", found.lower, unit::ratio, "Of the interval.");
+              v.number("upper", found.upper, unit::ratio, "Of the interval.");
+            });
         describe_fraction_of_time(v, section.climate, reached_wind_speed(section, result),
                                   "Fraction of the climate's time up to that speed, or up to the "
                                   "supply's if that is less; null without a climate.");
@@ -281,6 +298,20 @@ void describe(io::Visitor& v, const TuningSection& section) {
         v.number("value", found.value, unit::ratio, "Unstable samples over all.");
         v.number("lower", found.lower, unit::ratio, "Of the interval.");
         v.number("upper", found.upper, unit::ratio, "Of the interval.");
+      });
+  v.optional_group(
+      "step_overshoot", section.curves,
+      "Fraction of a step of the command by which the response exceeds it, continuous, without "
+      "command preprocessor and feedforward; null without an ensemble.",
+      [&](const design::EnsembleCurves& curves) {
+        v.number("position_loop", curves.position_step.overshoot(), unit::ratio,
+                 "Encoder after a position step, nominal plant.", positive);
+        v.number("position_loop_largest", curves.position_step.largest_overshoot(), unit::ratio,
+                 "The largest over the stable plants.", positive);
+        v.number("rate_loop", curves.rate_step.overshoot(), unit::ratio,
+                 "Tachometer after a rate step, position loop open, nominal plant.", positive);
+        v.number("rate_loop_largest", curves.rate_step.largest_overshoot(), unit::ratio,
+                 "The largest over the stable plants.", positive);
       });
   describe_inputs(v, section);
   describe_budgets(v, section);

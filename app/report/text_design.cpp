@@ -128,6 +128,21 @@ std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_vi
           : "is unstable");
 }
 
+// "0.93 (0.79 to 0.98)".
+std::string probability_text(const design::Probability& found) {
+  return fmt::format("{:.2f} ({:.2f} to {:.2f})", found.value, found.lower, found.upper);
+}
+
+std::string overshoot_text(const design::EnsembleCurves& curves) {
+  const auto percent = [](double fraction) { return fmt::format("{:.0f} %", 100.0 * fraction); };
+  const auto range = [&](const design::StepOverEnsemble& step) {
+    return fmt::format("{}, up to {} on the stable plants", percent(step.overshoot()),
+                       percent(step.largest_overshoot()));
+  };
+  return fmt::format("Step overshoot: position loop {}; rate loop {}.", range(curves.position_step),
+                     range(curves.rate_step));
+}
+
 // "24/30": plants of the ensemble on which a budget is met where it is needed.
 std::string plants_text(const TuningSection& section, const BudgetResult& result) {
   if (!result.plants_met || !section.ensemble) return "-";
@@ -189,7 +204,11 @@ Document effects_part(const TuningSection& section) {
     rows.push_back({quantity.key, std::string(to_string(quantity.basis)), quantity.text,
                     moved_text(effect), rms(effect.low_rms), rms(effect.high_rms)});
   }
-  return text + essential(table(rows, "lllrrr"));
+  const auto range = combined_range(section.input_effects, section.design.boresight_rms);
+  return text + essential(table(rows, "lllrrr")) +
+         wrapped(fmt::format("All of these in quadrature: {} to {} mdeg.", mdeg(range.lower),
+                             std::isfinite(range.upper) ? mdeg(range.upper) : "unstable"),
+                 "  ");
 }
 
 std::string tuning_heading(const TuningSection& section) {
@@ -247,9 +266,9 @@ Document document_of(const TuningSection& section) {
                   "  ");
   text += "\n";
   if (section.ensemble)
-    text +=
-        wrapped(ensemble_text(*section.ensemble, section.ensemble_source, section.goals), "  ") +
-        "\n";
+    text += wrapped(ensemble_text(*section.ensemble, section.ensemble_source, section.goals), "  ");
+  if (section.curves) text += wrapped(overshoot_text(*section.curves), "  ");
+  if (section.ensemble) text += "\n";
   std::vector<std::vector<std::string>> rows{{"wind model, same gains", "rms mdeg"}};
   for (const auto& alternative : section.wind_alternatives) {
     rows.push_back(
@@ -284,6 +303,9 @@ Document document_of(const TuningSection& section) {
     rows.front().insert(rows.front().end(),
                         {"required m/s" + mast_column(mast), "there on plants"});
   }
+  const bool probable = std::ranges::any_of(
+      section.budgets, [](const BudgetResult& one) { return one.probability.has_value(); });
+  if (probable) rows.front().emplace_back("probability (95 %)");
   const bool climate = !section.climate.empty();
   if (climate) rows.front().emplace_back("of the time");
   for (const auto& result : section.budgets) {
@@ -297,11 +319,14 @@ Document document_of(const TuningSection& section) {
                                  : "-");
       rows.back().push_back(plants_text(section, result));
     }
+    if (probable) {
+      rows.back().push_back(result.probability ? probability_text(*result.probability) : "-");
+    }
     if (climate) {
       rows.back().push_back(percent_of_time(section.climate, reached_wind_speed(section, result)));
     }
   }
-  text += essential(table(rows, "lllrrrrrr"));
+  text += essential(table(rows, "lllrrrrrrr"));
   if (std::isfinite(section.torque_limited_wind_speed)) {
     text += wrapped(fmt::format("Fixed gains, supply torque ignored: at {:.1f} m/s the mean wind "
                                 "takes all of it that friction and offset leave.",

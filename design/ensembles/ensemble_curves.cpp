@@ -145,7 +145,19 @@ EnsembleCurves::Worst worst_at(std::size_t loop_break, const EnsembleResult& eva
   return worst;
 }
 
+double beyond_step(const Eigen::ArrayXd& response) {
+  return response.size() == 0 ? 0.0 : std::max(response.maxCoeff() - 1.0, 0.0);
+}
+
 }  // namespace
+
+double StepOverEnsemble::overshoot() const {
+  return beyond_step(response.nominal);
+}
+
+double StepOverEnsemble::largest_overshoot() const {
+  return beyond_step(response.upper);
+}
 
 double highest_compared_speed(double mean_speed, const std::vector<double>& speed_limits) {
   double fastest = 1.5 * mean_speed;

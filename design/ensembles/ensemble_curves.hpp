@@ -24,6 +24,11 @@ struct EnsembleBand {
 struct StepOverEnsemble {
   Eigen::ArrayXd time;  // s, from 0
   EnsembleBand response;
+
+  /// Fraction of the step by which the response exceeds it: on the nominal plant, and the largest
+  /// over the nominal plant and the stable members. 0 where it does not, and without a response.
+  double overshoot() const;
+  double largest_overshoot() const;
 };
 
 /// One controller, gains fixed, on every member of an ensemble, as curves.

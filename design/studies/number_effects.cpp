@@ -33,6 +33,18 @@ double NumberEffect::change(double rms) const {
   return std::max(std::abs(low_rms - rms), std::abs(high_rms - rms)) / rms;
 }
 
+RmsRange combined_range(const std::vector<NumberEffect>& effects, double rms) {
+  double below = 0.0, above = 0.0;
+  for (const auto& effect : effects) {
+    const double infinite = std::numeric_limits<double>::infinity();
+    const double low = std::isfinite(effect.low_rms) ? effect.low_rms : infinite;
+    const double high = std::isfinite(effect.high_rms) ? effect.high_rms : infinite;
+    below = std::hypot(below, std::max(0.0, rms - std::min(low, high)));
+    above = std::hypot(above, std::max(0.0, std::max(low, high) - rms));
+  }
+  return {std::max(0.0, rms - below), rms + above};
+}
+
 std::vector<NumberEffect> number_effects(const std::vector<MovedNumber>& numbers,
                                          const control::Controller& controller,
                                          const Constraints& goals, double rms, std::size_t maximum,

@@ -27,6 +27,17 @@ struct NumberEffect {
   double change(double rms) const;
 };
 
+/// Range of an rms (rad) over several independent numbers.
+struct RmsRange {
+  double lower = 0.0, upper = 0.0;
+};
+
+/// Combines effects to first order: on either side of `rms` the root sum of squares of each
+/// number's largest change to that side (GUM 5.1.2, one standard uncertainty if the numbers were
+/// moved by theirs). The upper end is infinite where a number makes the loop unstable, the lower at
+/// least 0.
+RmsRange combined_range(const std::vector<NumberEffect>& effects, double rms);
+
 /// Moves one number at a time with all gains fixed. Returns the `maximum` numbers that change the
 /// rms (rad) most, the largest change first. It omits changes below a thousandth, and numbers that
 /// give no valid antenna on either side. The result does not depend on the number of threads.

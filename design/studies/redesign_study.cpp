@@ -183,11 +183,16 @@ FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task) {
   return plan;
 }
 
-// What the recommended controller is compared with where the mission states no present gains.
-void compare_with_retuned(const Mission& mission, const TuningStudy& tuned,
+// With the mission's own gains or, where it states none, with what stands for them.
+void compare_with_present(const Mission& mission, const TuningStudy& tuned,
                           const TunedController& best, RedesignStudy& result) {
-  if (!mission.present_controllers.empty()) return;
   RecommendedDesign& section = result.recommended;
+  if (!mission.present_controllers.empty()) {
+    if (result.time_domain && result.time_domain->present) {
+      section.present.front().simulated_rms = result.time_domain->present->simulated_rms;
+    }
+    return;
+  }
   const TunedController* row = retuned_present(tuned, mission.present_structure, best.wind_speed);
   if (row == nullptr) return;
   if (row == &best) {
@@ -247,6 +252,13 @@ std::optional<TimeDomainStudy> time_domain_of(const Mission& mission, Controller
                                SecondIntegrator::cvodes);
 }
 
+// That a member is one of `met`.
+Probability fraction_of_members(int met, std::size_t members) {
+  Eigen::ArrayXd scores = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(members));
+  scores.head(met) = 1.0;
+  return mean_score(scores, 0.95);
+}
+
 }  // namespace
 
 RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
@@ -282,7 +294,7 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
     result.recommended.ties.push_back(description_of(*row));
   }
   result.recommended.fitness = fitness(assessment_of(study.tuned, best));
-  compare_with_retuned(mission, study.tuned, best, result);
+  compare_with_present(mission, study.tuned, best, result);
   std::vector<Design> other(first_alternative, first_row);
   improve_along(alternatives, other);
   for (std::size_t i = 0; i < other.size(); ++i) {
@@ -308,7 +320,12 @@ void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
                                   highest_compared_speed(design.design_speed, limits), threads);
   const auto met = plants_within_budgets(design.problem, members, controller, design.goals, budgets,
                                          design.effect, threads);
-  for (std::size_t i = 0; i < met.size(); ++i) design.budgets[i].plants_met = met[i];
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    design.budgets[i].plants_met = met[i];
+    design.budgets[i].probability = fraction_of_members(
+        met[i].value_or(members_within(budgets[i], design.effect, *design.ensemble)),
+        members.size());
+  }
 }
 
 }  // namespace boresight::design

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/ensembles/ensemble_curves.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 
@@ -19,6 +20,9 @@ struct BudgetResult {
   /// Ensemble members on which it is met in the wind up to which it is needed. None for a budget
   /// that states no such wind, and without an ensemble.
   std::optional<int> plants_met = std::nullopt;
+  /// That a member of the ensemble meets it in that wind, or in the design wind for a budget that
+  /// states none: mean_score with 95 % confidence. None without an ensemble.
+  std::optional<Probability> probability = std::nullopt;
 };
 
 /// The recommended controller in detail.
@@ -41,7 +45,7 @@ struct RecommendedDesign {
     std::string structure;
     Design design;
     bool retuned = false;  // not the antenna's own gains
-    /// Over several records of wind (rad), of a retuned controller that was simulated.
+    /// Over several records of wind (rad), of the first present controller that was simulated.
     std::optional<double> simulated_rms = std::nullopt;
   };
   std::vector<PresentController> present;

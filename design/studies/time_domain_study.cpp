@@ -114,6 +114,10 @@ void add_own_present(const Mission& mission, const TrackingProblem& problem,
   if (mission.present_controllers.empty()) return;
   const control::Controller& present = mission.present_controllers.front().controller;
   add_present(mission, problem, {present.structure.name(), present}, false, section);
+  const auto found =
+      expected_rms(problem, loop_of(mission, problem, present, section.encoder_resolution),
+                   section.options, SimulatedRmsOptions{}.records, {});
+  if (std::isfinite(found.rms.value)) section.present->simulated_rms = found.rms.value;
 }
 
 }  // namespace

@@ -48,6 +48,9 @@ struct TimeDomainStudy {
     std::string structure;
     ErrorTrace in_wind;
     bool retuned = false;  // not the antenna's own gains: of retuned_present
+    /// Of the mission's own controller, over the records of `rms`; none where a run did not
+    /// complete.
+    std::optional<double> simulated_rms = std::nullopt;  // rad
   };
   std::optional<Present> present;
   /// The requested slew rate exceeds the drive's capability only for lack of stroke: twice the

@@ -146,7 +146,7 @@ class Card(unittest.TestCase):
         self.assertIn(f"{expected['rms_mdeg']:.3f} mdeg rms in ", card["Error per axis"])
         self.assertIn(f"95 % {expected['lower_mdeg']:.3f} to {expected['upper_mdeg']:.3f} over "
                       f"{expected['records']} winds", card["Error per axis"])
-        self.assertRegex(card["Confidence"], "^low: inertia estimates contradict")
+        self.assertRegex(card["Confidence"], "^low: inertias and resonance contradict")
 
     def test_compares_with_the_gains_of_today_or_the_structure_tuned_again(self):
         for name in (BIG, *QUICK):

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -75,6 +77,27 @@ TEST(EnsembleCurves, StepsLeadFromRestToTheCommand) {
     EXPECT_NEAR(step->response.nominal.tail(1)[0], 1.0, 0.05);
     EXPECT_LT(step->response.lower.tail(1)[0], step->response.upper.tail(1)[0]);
   }
+}
+
+// A second-order loop overshoots by exp(-pi zeta/sqrt(1 - zeta^2)) (Franklin and Powell, 3.4).
+TEST(StepOverEnsemble, OvershootIsThatOfASecondOrderLoop) {
+  const auto response = [](const Eigen::ArrayXd& time, double zeta) -> Eigen::ArrayXd {
+    const double damped = std::sqrt(1.0 - zeta * zeta);
+    return 1.0 -
+           (-zeta * time).exp() * ((damped * time).cos() + zeta / damped * (damped * time).sin());
+  };
+  const auto overshoot = [](double zeta) {
+    return std::exp(-std::numbers::pi * zeta / std::sqrt(1.0 - zeta * zeta));
+  };
+  StepOverEnsemble step;
+  EXPECT_EQ(step.overshoot(), 0.0);
+  step.time = Eigen::ArrayXd::LinSpaced(4001, 0.0, 20.0);
+  step.response.nominal = response(step.time, 0.5);
+  step.response.upper = response(step.time, 0.3);
+  EXPECT_NEAR(step.overshoot(), overshoot(0.5), 1e-5);
+  EXPECT_NEAR(step.largest_overshoot(), overshoot(0.3), 1e-5);
+  step.response.nominal = 1.0 - (-step.time).exp();
+  EXPECT_EQ(step.overshoot(), 0.0);
 }
 
 TEST(EnsembleCurves, LeaveUnstableMembersOutOfTheirRanges) {

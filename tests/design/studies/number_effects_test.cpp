@@ -54,6 +54,19 @@ TEST(NumberEffects, AreWhatTheClosedLoopSays) {
               1e-4 * alone.boresight_rms);
 }
 
+TEST(NumberEffects, CombineInQuadratureOnEachSide) {
+  const auto range = combined_range({{0, 0.97, 1.03}, {1, 1.04, 0.96}, {2, 1.2, 1.1}}, 1.0);
+  EXPECT_NEAR(range.lower, 1.0 - std::hypot(0.03, 0.04), 1e-15);
+  EXPECT_NEAR(range.upper, 1.0 + std::hypot(0.03, 0.04, 0.2), 1e-15);
+  const auto unstable =
+      combined_range({{0, 0.9, std::numeric_limits<double>::quiet_NaN()}, {1, 0.0, 1.0}}, 1.0);
+  EXPECT_EQ(unstable.lower, 0.0);
+  EXPECT_EQ(unstable.upper, std::numeric_limits<double>::infinity());
+  const auto none = combined_range({}, 1.0);
+  EXPECT_EQ(none.lower, 1.0);
+  EXPECT_EQ(none.upper, 1.0);
+}
+
 TEST(NumberEffects, AreTheLargestFirstWithoutWhatChangesNothing) {
   const auto problem = tracking_problem(reference::demo_mission());
   const double rms = assess(problem, controller_of_test(), {}).boresight_rms;

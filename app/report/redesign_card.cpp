@@ -164,24 +164,29 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
   const std::string by_inputs = input_range_text(section);
   std::string text =
       expected != nullptr
-          ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated (95 % {} to {} over {} winds{})",
+          ? fmt::format("{} mdeg rms at {:.3g} m/s, simulated (95 % {} to {} over {} winds{})",
                         mdeg(expected->rms.value), report.time_domain->wind_speed,
                         mdeg(expected->rms.lower), mdeg(expected->rms.upper), expected->records,
                         by_inputs)
-      : simulated(report)
-          ? fmt::format("{} mdeg rms in {:.3g} m/s wind, simulated (one record{})",
-                        mdeg(report.time_domain->result.wind.boresight_rms),
-                        report.time_domain->wind_speed, by_inputs)
-          : fmt::format("{} mdeg rms in {:.3g} m/s wind, linear plant, not simulated{}",
-                        mdeg(section.design.boresight_rms), section.design_speed,
-                        by_inputs.empty() ? "" : " (" + by_inputs.substr(2) + ")");
+      : simulated(report) ? fmt::format("{} mdeg rms at {:.3g} m/s, simulated (one record{})",
+                                        mdeg(report.time_domain->result.wind.boresight_rms),
+                                        report.time_domain->wind_speed, by_inputs)
+                          : fmt::format("{} mdeg rms at {:.3g} m/s, linear plant, not simulated{}",
+                                        mdeg(section.design.boresight_rms), section.design_speed,
+                                        by_inputs.empty() ? "" : " (" + by_inputs.substr(2) + ")");
   if (section.effect.amplitude > 0.0 && std::isfinite(section.effect.factor)) {
-    text += fmt::format("; {} with the limit cycle",
+    text += fmt::format("; {} with limit cycle",
                         mdeg(section.effect.rms(section.design.boresight_rms)));
   }
   if (tightest != section.budgets.end()) {
     const bool met = tightest->wind_speed_limit >= section.design_speed;
-    text += fmt::format("; budget {}, {}", mdeg(tightest->budget.rms), met ? "met" : "MISSED");
+    const bool sure = section.input_effects.empty() ||
+                      combined_range(section.input_effects, section.design.boresight_rms).upper <=
+                          tightest->budget.rms;
+    text += fmt::format("; budget {}, {}", mdeg(tightest->budget.rms),
+                        !met    ? "MISSED"
+                        : !sure ? "met nominally"
+                                : "met");
   }
   if (!section.ties.empty()) {
     text += fmt::format("; a tie with {}", section.ties.front());
@@ -237,9 +242,12 @@ CardLine budget_line(const Report& report, const TuningSection& section, std::si
     const auto& needed = result.budget.wind_speed;
     if (needed) text += fmt::format(" (required {:.3g})", *needed);
     if (budgets.empty() && result.probability) {
-      text += fmt::format(", probability {:.2f} ({:.2f} to {:.2f}) over the models at {:.3g} m/s",
-                          result.probability->value, result.probability->lower,
-                          result.probability->upper, needed.value_or(section.design_speed));
+      const auto models =
+          static_cast<double>(section.ensemble ? section.ensemble->members.size() : 0);
+      text += fmt::format(", on {:.0f}/{:.0f} models at {:.3g} m/s (probability {:.2f} to {:.2f})",
+                          result.probability->value * models, models,
+                          needed.value_or(section.design_speed), result.probability->lower,
+                          result.probability->upper);
     }
     budgets.push_back(std::move(text));
   }
@@ -312,25 +320,21 @@ CardLine flywheel_line(const MatchingSection& section) {
     return mdeg(one.designs[row].boresight_rms);
   };
   // Other loops than the recommended ones, on the nominal plant.
-  const std::string loops_compared =
-      fmt::format(" ({}, linear)", control::to_string(series.structure));
-  std::string text =
-      fmt::format("{} mdeg at {} as built, {} at {}", at(series, built),
-                  section.rows[built].label, at(series, end), section.rows[end].label);
+  const std::string text = fmt::format(
+      "{}, linear: {} mdeg at {} as built, {} at {}", control::to_string(series.structure),
+      at(series, built), section.rows[built].label, at(series, end), section.rows[end].label);
   const bool better = verdict.change(series, end) < -negligible_change;
   if (verdict.flat() || (!better && !verdict.friction_decides())) {
-    return {"Flywheels", "keep: " + text + loops_compared, evidence};
+    return {"Flywheels", "keep; " + text, evidence};
   }
   if (const MatchingSeries* other = verdict.other_friction();
       other != nullptr && verdict.friction_decides()) {
     return {"Flywheels",
-            fmt::format("keep until friction is known: {}; {} and {} with {}{}", text,
-                        at(*other, built), at(*other, end), other->friction, loops_compared),
+            fmt::format("keep until friction is known; {}; {} and {} with {}", text,
+                        at(*other, built), at(*other, end), other->friction),
             evidence};
   }
-  return {"Flywheels",
-          fmt::format("change: {}{}; confirm by `boresight evaluate`", text, loops_compared),
-          evidence};
+  return {"Flywheels", fmt::format("change; {}; confirm by `boresight evaluate`", text), evidence};
 }
 
 // Contradictions to resolve first.

@@ -13,27 +13,35 @@ program, source = sys.argv[1], pathlib.Path(sys.argv[2])
 readme = (source / "README.md").read_text()
 
 
-def check(section, *arguments):
-    """The lines of output that a section of README.md shows are those of the command."""
+MOST_LINES = 200
+
+
+def check(sections, *arguments):
+    """The lines of output that sections of README.md show are those of the command."""
     printed = subprocess.run([program, *arguments], cwd=source, capture_output=True, text=True,
                              check=True).stdout.splitlines()
-    text = readme.split(f"## {section}")[1].split("\n## ")[0]
+    text = "\n".join(readme.split(f"# {section}\n")[1].split("\n## ")[0] for section in sections)
     shown = [line[4:].strip() for line in text.splitlines() if line.startswith("    ")]
-    shown = [line for line in shown if line and not line.startswith("./dev")]
+    shown = [line for line in shown if line and not line.startswith(("./dev", "boresight "))]
     missing = not_printed(shown, printed)
     # Title, card of the result and 60 lines: what does not fit is for --details.
     assert len(printed) <= 3 + 16 + 60, f"{arguments[0]} prints {len(printed)} lines"
-    assert len(shown) > 5, f"README.md shows no output in {section}"
+    assert len(shown) > 5, f"README.md shows no output in {sections}"
     assert not missing, "README.md shows what the program does not print:\n" + "\n".join(missing)
     return len(shown)
 
 
 case = "cases/dss14-70m/case.toml"
-lines = check("What the main job prints", "redesign", case)
-lines += check("Tuning", "tune", case, "--structure", "PI", "--structure", "DPF+C")
+lines = check(("Boresight", "What the main job prints"), "redesign", case)
+lines += check(("Tuning",), "tune", case, "--structure", "PI", "--structure", "DPF+C")
 with tempfile.TemporaryDirectory() as folder:
-    lines += check("Simulated tests", "simulate", case, "slosh", "slow-ramp", "tracking",
+    lines += check(("Simulated tests",), "simulate", case, "slosh", "slow-ramp", "tracking",
                    "--folder", folder)
+
+# The card, a picture and the two commands come first.
+firsts = [readme.index(first) for first in ("\n      Recommended ", "\n![", "\n## Two commands\n")]
+assert firsts == sorted(firsts) and readme.count("\n## ", 0, firsts[-1]) == 0
+assert readme.count("\n") <= MOST_LINES, f"README.md has {readme.count(chr(10))} lines"
 
 help_text = subprocess.run([program, "--help"], capture_output=True, text=True, check=True).stdout
 for command in re.findall(r"`boresight (\w+) CASE`", readme):

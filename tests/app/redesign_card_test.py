@@ -143,7 +143,7 @@ class Card(unittest.TestCase):
         card = card_of(report)
         self.assertEqual(card["Recommended"].count(" = "), len(report["tuning"]["design"]["gains"]))
         expected = report["time_domain"]["expected_rms"]
-        self.assertIn(f"{expected['rms_mdeg']:.3f} mdeg rms in ", card["Error per axis"])
+        self.assertIn(f"{expected['rms_mdeg']:.3f} mdeg rms at ", card["Error per axis"])
         self.assertIn(f"95 % {expected['lower_mdeg']:.3f} to {expected['upper_mdeg']:.3f} over "
                       f"{expected['records']} winds", card["Error per axis"])
         self.assertRegex(card["Confidence"], "^low: inertias and resonance contradict")

@@ -89,7 +89,7 @@ std::string_view reason(Doubt doubt) {
     case Doubt::not_verified:
       return "no controller meets the constraints";
     case Doubt::not_robust:
-      return "constraints violated within the uncertainty set";
+      return "constraints violated on some models";
     case Doubt::not_simulated:
       return "not shown on the nonlinear antenna";
     case Doubt::limit_cycle:
@@ -116,7 +116,7 @@ std::string_view deficiency(design::Fitness fitness) {
     case design::Fitness::misses_budget:
       return ", misses a required budget";
     case design::Fitness::misses_member:
-      return ", violates constraints within the uncertainty set";
+      return ", violates constraints on some models";
     case design::Fitness::not_shown:
       return ", not shown to be free of limit cycles";
     case design::Fitness::limit_cycle:

@@ -131,6 +131,18 @@ class Card(unittest.TestCase):
                     with self.subTest(case=name, label=label, number=number):
                         self.assertTrue(is_in(report, label, number, unit), text)
 
+    def test_is_what_the_documents_show(self):
+        # The two quickest of docs/cards.md; ./dev screenshots writes all five.
+        page = (SOURCE / "docs/cards.md").read_text(encoding="utf-8").replace("\n    ", "\n")
+        name = "dss14-64m/case.toml"
+        other = subprocess.run([PROGRAM, "redesign", f"cases/{name}"], cwd=SOURCE, capture_output=True, text=True,
+                               check=True).stdout.splitlines()
+        for case, lines in ((f"cases/{BIG}/case.toml", redesign(BIG)[1]), (f"cases/{name}", other)):
+            with self.subTest(case=case):
+                card = "\n".join(lines[3:lines.index("", 3)])
+                self.assertIn(f"boresight redesign {case}\n", page)
+                self.assertIn(card, page.split(f"boresight redesign {case}\n")[1].split("\n## ")[0])
+
     def test_would_miss_wrong_figures(self):
         report = redesign(BIG)[0]
         wrong = [(label, f"{float(number) + 0.037:.3f}", unit) for label, text in card_of(report).items()

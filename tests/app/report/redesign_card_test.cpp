@@ -85,7 +85,7 @@ TEST(RedesignCard, DoesNotLoadWhatIsUnfit) {
   using design::Fitness;
   for (const auto& [fitness, why] : std::vector<std::pair<Fitness, std::string>>{
            {Fitness::misses_budget, "misses a required budget"},
-           {Fitness::misses_member, "violates constraints within the uncertainty set"},
+           {Fitness::misses_member, "violates constraints on some models"},
            {Fitness::not_shown, "not shown to be free of limit cycles"},
            {Fitness::limit_cycle, "limit-cycles beyond the tightest budget"},
            {Fitness::lost_in_wind, "lost in simulated wind"}}) {
@@ -94,7 +94,7 @@ TEST(RedesignCard, DoesNotLoadWhatIsUnfit) {
   }
   report.tuning->fitness = Fitness::misses_member;
   EXPECT_THAT(line_of(report, "Confidence"),
-              StartsWith("low: constraints violated within the uncertainty set"));
+              StartsWith("low: constraints violated on some models"));
   report.tuning->design.tuning.status = design::TuningStatus::infeasible;
   EXPECT_THAT(line_of(report, "Controller"), StartsWith("none"));
   EXPECT_EQ(line_of(report, "Error per axis"), "");
@@ -143,7 +143,7 @@ TEST(RedesignCard, CountsUnstableModels) {
   report.tuning->ensemble->stable = 29;
   EXPECT_THAT(line_of(report, "Margins"), EndsWith("30/30 models, 1 UNSTABLE"));
   EXPECT_THAT(line_of(report, "Confidence"),
-              StartsWith("low: constraints violated within the uncertainty set"));
+              StartsWith("low: constraints violated on some models"));
   EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
 }
 

@@ -50,6 +50,24 @@ Document overview(const CommissionReport& report) {
              "  ");
 }
 
+std::string gain_text(const StageGain& gain) {
+  return fmt::format("{} = {}", gain.symbol, gain.text);
+}
+
+// Of the first stage all that act, of the others those that change.
+Document gains_to_set(const CommissionReport& report) {
+  Rows rows{{"stage", "gains to set"}};
+  for (std::size_t i = 0; i < report.sheets.size(); ++i) {
+    std::vector<std::string> gains;
+    for (const auto& gain : report.sheets[i].gains) {
+      if (i == 0 || gain.changed) gains.push_back(gain_text(gain));
+    }
+    rows.push_back({fmt::format("{}", i + 1),
+                    gains.empty() ? "as before" : fmt::format("{}", fmt::join(gains, "; "))});
+  }
+  return table(rows, "rl");
+}
+
 Document sheets(const CommissionReport& report) {
   Document text;
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
@@ -59,7 +77,7 @@ Document sheets(const CommissionReport& report) {
                                sheet.stage.controller.position_open ? ", position loop open" : ""));
     std::vector<std::string> gains;
     for (const auto& gain : sheet.gains) {
-      gains.push_back(fmt::format("{} = {}{}", gain.symbol, gain.text, gain.changed ? " *" : ""));
+      gains.push_back(gain_text(gain) + (gain.changed ? " *" : ""));
     }
     text += wrapped(fmt::format("gains  {}", fmt::join(gains, "; ")), "    ", "       ");
     text += wrapped("check  " + sheet.check, "    ", "       ");
@@ -144,7 +162,11 @@ Document plan_part(const CommissionReport& report) {
           report.options.rms_allowance, report.options.abort_peak),
       "  "));
   text += "\n" + essential(overview(report));
-  text += heading("Stages (* changed from the previous stage)") + essential(sheets(report));
+  text += essential("\n" + gains_to_set(report) +
+                    wrapped("What to check at each stage, when to abort and the way back: section "
+                            "Stages (--details).",
+                            "  "));
+  text += heading("Stages (* changed from the previous stage)") + sheets(report);
   return text;
 }
 

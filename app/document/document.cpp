@@ -77,6 +77,28 @@ Document essential(Document document) {
   return document;
 }
 
+Document shortened(Document document, std::size_t rows) {
+  for (auto& block : document.blocks) {
+    if (std::holds_alternative<Table>(block.content)) block.short_rows = rows;
+  }
+  return document;
+}
+
+namespace {
+
+void append_shortened(Document& text, const Block& block) {
+  text.blocks.push_back(block);
+  auto* table = std::get_if<Table>(&text.blocks.back().content);
+  if (table == nullptr || !block.short_rows) return;
+  const std::size_t kept = table->header_rows + *block.short_rows;
+  if (table->rows.size() <= kept + 1) return;  // the remark is as long as a row
+  const std::size_t left_out = table->rows.size() - kept;
+  table->rows.resize(kept);
+  text.blocks.push_back({Verbatim{fmt::format("  and {} more\n", left_out)}, true});
+}
+
+}  // namespace
+
 Document short_form(const Document& document) {
   Document text;
   const Block* heading = nullptr;
@@ -89,7 +111,7 @@ Document short_form(const Document& document) {
     }
     if (in_section && !block.essential) continue;
     if (heading != nullptr) text.blocks.push_back(*std::exchange(heading, nullptr));
-    text.blocks.push_back(block);
+    append_shortened(text, block);
   }
   return text;
 }

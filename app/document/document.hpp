@@ -56,6 +56,8 @@ struct Block {
   Content content;
   /// The short form of the document keeps it.
   bool essential = false;
+  /// Most rows below the header of a table in the short form; none: all.
+  std::optional<std::size_t> short_rows = std::nullopt;
 };
 
 /// The content of a report, independent of its presentation: to_text (document_text.hpp) for a
@@ -83,8 +85,10 @@ Document table(std::vector<std::vector<std::string>> rows, std::string_view alig
 Document verbatim(std::string_view text);
 /// The same blocks, which the short form keeps.
 Document essential(Document document);
+/// The same, with at most `rows` of each table below its header in the short form.
+Document shortened(Document document, std::size_t rows);
 /// The short form: everything before the first section, and of each section with essential blocks
-/// its heading and those blocks.
+/// its heading and those blocks. Behind a shortened table stands how many rows it lacks.
 Document short_form(const Document& document);
 /// The two lines at the start of every report; `axis` stands in brackets behind the title unless it
 /// is empty; `seed` for work that uses random numbers.

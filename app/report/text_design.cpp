@@ -205,7 +205,8 @@ Document effects_part(const TuningSection& section) {
                     moved_text(effect), rms(effect.low_rms), rms(effect.high_rms)});
   }
   const auto range = combined_range(section.input_effects, section.design.boresight_rms);
-  return text + essential(table(rows, "lllrrr")) +
+  constexpr std::size_t first = 8;
+  return text + shortened(essential(table(rows, "lllrrr")), first) +
          wrapped(fmt::format("All of these in quadrature: {} to {} mdeg.", mdeg(range.lower),
                              std::isfinite(range.upper) ? mdeg(range.upper) : "unstable"),
                  "  ");

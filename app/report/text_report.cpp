@@ -68,7 +68,12 @@ Document opening_of(const Report& report) {
 
 Document sections_of(const Report& report) {
   Document text;
-  if (report.campaign) text += document_of(*report.campaign);
+  // Of a redesign the records are a part; `boresight identify` shows all of its tables.
+  constexpr std::size_t methods = 8;
+  if (report.campaign) {
+    Document records = document_of(*report.campaign);
+    text += report.tuning ? shortened(std::move(records), methods) : std::move(records);
+  }
   if (report.identification && (!report.campaign || rests_on_tests(*report.identification))) {
     text += document_of(*report.identification);
   }

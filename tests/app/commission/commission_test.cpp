@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,7 @@ std::string small_case(const ScratchFolder& folder, const std::string& more = ""
 
 ProgramResult commission(const std::string& path, const std::vector<std::string>& gains,
                          const std::vector<std::string>& more = {}) {
-  std::vector<std::string> arguments{"commission", path, "--threads", "1"};
+  std::vector<std::string> arguments{"commission", path, "--details", "--threads", "1"};
   if (!gains.empty()) arguments.emplace_back("--gains");
   arguments.insert(arguments.end(), gains.begin(), gains.end());
   arguments.insert(arguments.end(), more.begin(), more.end());
@@ -52,13 +53,20 @@ TEST(Commission, PlansFromTheCasesGainsInTheCasesUnits) {
   EXPECT_THAT(result.output, ContainsRegex("mdeg as found, .* mdeg at the end"));
   EXPECT_THAT(result.output,
               HasSubstr("Open the position loop, set the gains of the stage before"));
+  EXPECT_THAT(result.output, ContainsRegex("stage +gains to set\n +1 +kr = 0.3; wi = 0.25 Hz"));
   EXPECT_THAT(result.output, HasSubstr("coherence"));
   EXPECT_THAT(content_of(folder.file("plan")), HasSubstr("\"assumed_detuning_1\": null"));
   // The same again, bytes and all, for two threads.
-  const auto again = run_program({"commission", path, "--threads", "2", "--gains", "kr=1.2",
-                                  "wi=2 rad/s", "wp=300 rad/s", "kT=0.2 rad/(s.N.m)",
+  const auto again = run_program({"commission", path, "--details", "--threads", "2", "--gains",
+                                  "kr=1.2", "wi=2 rad/s", "wp=300 rad/s", "kT=0.2 rad/(s.N.m)",
                                   "wd=5.5 rad/s", "kp=0.8 1/s", "wip=0.2 rad/s"});
   EXPECT_EQ(again.output, result.output);
+  // On a terminal each stage is a line of two tables.
+  const auto brief =
+      run_program({"commission", path, "--gains", "kr=1.2", "wi=2 rad/s", "wp=300 rad/s",
+                   "kT=0.2 rad/(s.N.m)", "wd=5.5 rad/s", "kp=0.8 1/s", "wip=0.2 rad/s"});
+  EXPECT_LE(std::ranges::count(brief.output, '\n'), 3 + 16 + 60);
+  EXPECT_THAT(brief.output, Not(HasSubstr("Brakes on")));
 }
 
 TEST(Commission, SaysWhatItAssumesWhereNoGainsAreKnown) {

@@ -201,6 +201,15 @@ TEST(Document, ShortFormKeepsWhatIsEssential) {
   EXPECT_EQ(to_text(short_form(heading("All of it") + "note\n")), "");
 }
 
+TEST(Document, ShortFormCutsShortenedTables) {
+  const Document rows = essential(table({{"gain"}, {"kr"}, {"wi"}, {"kp"}, {"wip"}}));
+  EXPECT_EQ(to_text(short_form(heading("Gains") + shortened(rows, 2))),
+            "\nGains\n-----\n  gain\n  kr\n  wi\n  and 2 more\n");
+  // The remark would take the place of the row.
+  EXPECT_EQ(to_text(short_form(shortened(rows, 3))), to_text(rows));
+  EXPECT_EQ(to_text(shortened(rows, 2)), to_text(rows));
+}
+
 TEST(DocumentHtml, WritesEachBlockAsWhatItIs) {
   const Document document = "before\n" + heading("Gains, before & after") + subheading("PI") +
                             table({{"gain", "now"}, {"", "SI"}, {"  K", "1"}, {"T"}}, "l", 2) +

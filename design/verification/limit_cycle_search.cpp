@@ -6,7 +6,6 @@
 #include <utility>
 
 #include <boresight/design/verification/limit_cycle_search.hpp>
-#include <boresight/design/verification/steady_run.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::design {
@@ -64,8 +63,8 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
     return control::CommandSample{gear * (rate * t + (t > 0.0 ? nudge : 0.0)), gear * rate, 0.0};
   };
   const auto course =
-      shaped_course(limits_at_motor(options, gear), loop.sample_time, samples, 1, target);
-  const LoopRun run = run_loop(loop, course, without_noise());
+      shaped_course(options.limits_at_motor(gear), loop.sample_time, samples, 1, target);
+  const LoopRun run = run_loop(loop, course, {.noise = false});
   result.status = run.status;
   result.message = run.message;
   result.encoder_amplitude = result.boresight_amplitude = result.persistence = nan;

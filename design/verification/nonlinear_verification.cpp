@@ -9,7 +9,6 @@
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
-#include <boresight/design/verification/steady_run.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
@@ -210,12 +209,11 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   };
   const Index settled = whole_samples(options.settling, loop.sample_time);
   const Index per_leg = whole_samples(leg, loop.sample_time);
-  const auto course = shaped_course(limits_at_motor(options, gear), loop.sample_time,
+  const auto course = shaped_course(options.limits_at_motor(gear), loop.sample_time,
                                     settled + legs * per_leg, 1, target);
-  const LoopRun run = run_loop(loop, course, without_noise());
-  LoopRunOptions frictionless = without_noise();
-  frictionless.without = {Influence::friction};
-  const LoopRun without_friction = run_loop(loop, course, frictionless);
+  const LoopRun run = run_loop(loop, course, {.noise = false});
+  const LoopRun without_friction =
+      run_loop(loop, course, {.without = {Influence::friction}, .noise = false});
   ReversalResult result;
   result.status = run.status;
   result.message = run.message;
@@ -242,7 +240,7 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   const double gear = loop.gear_ratio;
   SlewResult result;
   result.distance = options.slew_distance;
-  const auto wanted = limits_at_motor(options, gear);
+  const auto wanted = options.limits_at_motor(gear);
   const auto limits =
       achievable_limits(loop.antenna, plant::reflected_inertia(loop.linear), wanted);
   result.limits = {limits.rate / gear, limits.acceleration / gear};
@@ -269,7 +267,7 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
     return control::CommandSample{t > begin ? gear * result.distance : 0.0, 0.0, 0.0};
   });
   result.command_time = loop.sample_time * static_cast<double>(end - settled);
-  const LoopRun run = run_loop(loop, course, without_noise());
+  const LoopRun run = run_loop(loop, course, {.noise = false});
   result.status = run.status;
   result.message = run.message;
   if (run.result.values.size() == 0) return result;

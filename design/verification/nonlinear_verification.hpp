@@ -41,6 +41,10 @@ struct NonlinearVerificationOptions {
   unsigned threads = 1;
   /// The records of wind, for several controllers in the same; prepared anew if null.
   std::shared_ptr<SharedWinds> winds = nullptr;
+
+  control::CommandLimits limits_at_motor(double gear_ratio) const {
+    return {limits.rate * gear_ratio, limits.acceleration * gear_ratio};
+  }
 };
 
 /// Errors of a run at equal intervals from 0 on, at the sky. Empty where the run did not complete.

@@ -226,6 +226,10 @@ bool has(const SimulatedLoop& loop, Influence influence) {
   throw InvalidInput("influence: not one of those there are");
 }
 
+Index whole_samples(double duration, double sample_time) {
+  return static_cast<Index>(std::llround(duration / sample_time));
+}
+
 ReferenceTrajectory shaped_course(
     const control::CommandLimits& limits, double sample_time, Index samples, Index steps,
     const std::function<control::CommandSample(double time)>& target) {
@@ -333,7 +337,7 @@ LoopRun run_linear_loop(const SimulatedLoop& loop, const ReferenceTrajectory& co
   const double sample_time = loop.sample_time / static_cast<double>(finer);
   const double delay = 1.5 * loop.sample_time - 0.5 * sample_time;
   const double step = finer == 1 ? course.interval : std::min(course.interval, 0.5 * sample_time);
-  const auto parts = static_cast<Index>(std::llround(course.interval / step));
+  const auto parts = whole_samples(course.interval, step);
   const Index steps = (course.wind_torque.size() - 1) * parts + 1;
   control::AntennaController controller(loop.controller, sample_time);
   plant::SimulationPlan plan;

@@ -66,6 +66,9 @@ struct ReferenceTrajectory {
   Eigen::VectorXd wind_torque;             // N m at the motor
 };
 
+/// Number of samples of a duration (s), rounded.
+Eigen::Index whole_samples(double duration, double sample_time);
+
 /// A trajectory of `samples` sample times, each in `steps` steps. Its reference is the command
 /// preprocessor's output for a target: `target(t)` with its rate (CommandSample::acceleration is
 /// ignored). Starts on the target at t = 0, at its rate within the limits. No wind.

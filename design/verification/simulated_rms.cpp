@@ -66,7 +66,7 @@ SimulatedRms simulated_rms(const TrackingProblem& problem, const SimulatedLoop& 
   const SharedWinds::Records records{problem, loop, options.tracking_rate * loop.gear_ratio,
                                      options.settling + options.duration};
   const auto courses = shared->courses(records);
-  const auto counted = static_cast<Index>(std::llround(options.duration / loop.sample_time));
+  const auto counted = whole_samples(options.duration, loop.sample_time);
   const auto squares =
       shared->line_squares(records, counted, options.seed, options.winds, options.threads);
   // By Parseval, without the mean.

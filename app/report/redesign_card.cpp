@@ -180,9 +180,9 @@ CardLine pointing_line(const Report& report, const TuningSection& section) {
   }
   if (tightest != section.budgets.end()) {
     const bool met = tightest->wind_speed_limit >= section.design_speed;
-    const bool sure = section.input_effects.empty() ||
-                      combined_range(section.input_effects, section.design.boresight_rms).upper <=
-                          tightest->budget.rms;
+    const auto range = combined_range(section.input_effects, section.design.boresight_rms);
+    const bool sure =
+        section.input_effects.empty() || section.effect.rms(range.upper) <= tightest->budget.rms;
     text += fmt::format("; budget {}, {}", mdeg(tightest->budget.rms),
                         !met    ? "MISSED"
                         : !sure ? "met nominally"

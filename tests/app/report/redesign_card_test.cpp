@@ -194,6 +194,12 @@ TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
   effect.low_rms = effect.high_rms = 0.61 * millidegree;
   report.tuning->input_effects = {effect};
   EXPECT_THAT(line_of(report, "Error per axis"), EndsWith("; budget 0.600, met nominally"));
+  report.tuning->input_effects[0].low_rms = report.tuning->input_effects[0].high_rms =
+      0.59 * millidegree;
+  EXPECT_THAT(line_of(report, "Error per axis"), EndsWith("; budget 0.600, met"));
+  // Not with what the nonlinear antenna adds.
+  report.tuning->effect.factor = 1.1;
+  EXPECT_THAT(line_of(report, "Error per axis"), EndsWith("; budget 0.600, met nominally"));
   report.tuning->budgets[0].wind_speed_limit = 9.0;
   EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600, MISSED"));
 }

@@ -54,7 +54,7 @@ Matching match(io::Case antenna, const std::vector<std::string>& structures, int
   options.threads = app::all_or(threads);
   Matching result{{report_of(antenna, "match", seed)}};
   result.report.matched = interruptible([&](const StopRequest& stop) {
-    // The ensemble's draws do not go with the seed of the searches.
+    // The ensemble's samples do not depend on the seed of the searches.
     auto designed = io::designed_antenna(antenna, 1, options.threads, stop);
     result.report.superseded = std::move(designed.superseded);
     antenna = std::move(designed.antenna);

@@ -57,7 +57,7 @@ std::string friction_slope_sentence(const FailedCheck& failed) {
                                 : "");
 }
 
-// Of what takes more than the whole of the supply's torque, or a large share of it.
+// Of what takes more than the whole of the supply's torque, or a large fraction of it.
 std::string friction_against_supply_sentence(const FailedCheck& failed) {
   const bool at_rest = failed.check.explanation.starts_with("breakaway");
   const bool impossible = failed.check.explanation.ends_with("_beyond_supply");

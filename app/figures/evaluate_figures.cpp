@@ -109,7 +109,7 @@ Figure spread_figure(const EvaluateSection& section) {
   return figure;
 }
 
-// A panel of shares by name, from probabilities.
+// A panel of fractions by name, from probabilities.
 struct NamedFraction {
   std::string name;
   design::Probability fraction;

@@ -185,7 +185,7 @@ Document loop_table(const EvaluateSection& section) {
          oil_modes_part(section);
 }
 
-// "24/30": plants on which the candidate's law meets a budget where it is needed.
+// "24/30": plants on which the candidate's controller meets a budget where it is needed.
 std::string plants_text(const EvaluateSection& section, const Candidate& candidate,
                         std::size_t budget) {
   const CandidateController* controller = candidate.chosen_controller();

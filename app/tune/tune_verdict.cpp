@@ -369,7 +369,7 @@ std::vector<Shortfall> find_shortfalls(const TuneSection& section) {
   for (const double speed : section.wind_speeds) {
     const std::size_t before = shortfalls.size();
     find_unmet_goals(section, speed, TunedFor::nominal, shortfalls);
-    // A soft goal over the ensemble asks for its hard goals there.
+    // An objective over the ensemble asks for its constraints there.
     const bool asked = section.objective.kind != design::ObjectiveKind::nominal;
     if (asked && shortfalls.size() == before) {
       find_unmet_goals(section, speed, TunedFor::robust, shortfalls);

@@ -12,7 +12,7 @@
 namespace boresight::control {
 namespace {
 
-// Shares of the Nyquist frequency up to which a corner is placed exactly. Near it the tangent
+// Fractions of the Nyquist frequency up to which a corner is placed exactly. Near it the tangent
 // grows without bound and the block would vanish, its phase at low frequencies first; but a notch
 // off its frequency is no notch.
 constexpr double corner_limit = 0.5;

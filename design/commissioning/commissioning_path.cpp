@@ -14,7 +14,7 @@ using control::Controller;
 using control::LoopPath;
 using control::LoopStructure;
 
-// A path that comes in begins at this share of its gain.
+// A path that comes in begins at this fraction of its gain.
 constexpr double first_fraction = 0.25;
 
 using GainMap = std::map<std::string, double>;
@@ -151,7 +151,7 @@ class Walk {
     return false;
   }
 
-  // A path that is not there yet begins at a share of its gain.
+  // A path that is not there yet begins at a fraction of its gain.
   Group entering(LoopPath path, bool present) const {
     GainMap from = gains_;
     if (!present) {

@@ -6,13 +6,6 @@
 
 namespace boresight::design {
 
-int members_within(const PointingBudget& budget, const NonlinearEffect& effect,
-                   const EnsembleResult& evaluated) {
-  return static_cast<int>(std::ranges::count_if(evaluated.members, [&](const auto& member) {
-    return member.stable && within_budget(effect.rms(member.boresight_rms), budget.rms);
-  }));
-}
-
 std::vector<std::optional<int>> plants_within_budgets(
     const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
     const control::Controller& controller, const Constraints& goals,
@@ -30,7 +23,10 @@ std::vector<std::optional<int>> plants_within_budgets(
           by_speed.emplace(*budget.wind_speed, evaluate(windy, members, controller, goals, threads))
               .first;
     }
-    met.back() = members_within(budget, effect, found->second);
+    met.back() =
+        static_cast<int>(std::ranges::count_if(found->second.members, [&](const auto& member) {
+          return member.stable && within_budget(effect.rms(member.boresight_rms), budget.rms);
+        }));
   }
   return met;
 }

@@ -9,11 +9,6 @@
 
 namespace boresight::design {
 
-/// Number of members on which a budget is met in the wind that they were evaluated in. `effect`:
-/// applied to the rms of the linear loops.
-int members_within(const PointingBudget& budget, const NonlinearEffect& effect,
-                   const EnsembleResult& evaluated);
-
 /// Number of ensemble members on which each budget is met, one entry per budget. The controller is
 /// evaluated with fixed gains, in the wind up to which the budget is needed, whatever the problem's
 /// own wind. None for a budget that states no wind_speed. `effect`: applied to the rms of the

@@ -28,7 +28,7 @@ double uniform(std::uint64_t state, std::uint64_t index) {
   return (static_cast<double>(numerics::splitmix64(state, index) >> 12U) + 0.5) * 2.0 * unit;
 }
 
-// Streams of a seed: shares of uniform inputs, normal numbers of the others.
+// Streams of a seed: fractions of uniform inputs, normal numbers of the others.
 constexpr std::uint64_t uniform_stream = 0x5eed0001;
 constexpr std::uint64_t normal_stream = 0x5eed0002;
 constexpr std::uint64_t wind_stream = 0x5eed0003;

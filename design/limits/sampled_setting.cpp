@@ -54,8 +54,8 @@ Eigen::ArrayXXcd responses(const plant::StateSpace& system, const Eigen::ArrayXd
   return result;
 }
 
-// Share of the wind's torque that the torque's noise is where none is stated: controllers that feed
-// torque back hear none then, and an LQG that hears so little is as good as without.
+// Fraction of the wind's torque that the torque's noise is where none is stated: controllers that
+// feed torque back hear none then, and an LQG that hears so little is as good as without.
 constexpr double min_torque_noise = 1e-3;
 
 double wind_torque_rms(const plant::ShapingFilter& wind) {

@@ -30,7 +30,7 @@ double fraction_above(double ratio, double shape) {
   return std::exp(-std::exp(log_exponent(ratio, shape)));
 }
 
-// The shape with the largest share, which is that of the least exponent.
+// The shape with the largest fraction, which is that of the least exponent.
 double shape_of_most(double ratio) {
   double low = lowest_shape_sought, high = highest_shape_sought;
   for (int step = 0; step < 100; ++step) {

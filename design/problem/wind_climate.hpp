@@ -48,7 +48,7 @@ struct WeibullShapes {
 
 /// Shapes with which the fraction `fraction` (above 0, at most 1) of all winds lies above `ratio`
 /// times their mean (0.001 to 1000):
-///   exp(-(ratio Gamma(1 + 1/shape))^shape) = share.
+///   exp(-(ratio Gamma(1 + 1/shape))^shape) = fraction.
 /// The fraction falls with the shape above 1.81 times the mean and rises with it up to the mean.
 /// Between the two it has a maximum, so there may be two shapes. Shapes within 0.001 of one another
 /// count as one.

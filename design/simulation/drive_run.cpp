@@ -43,7 +43,7 @@ class Recording {
     record_.channels.push_back({std::move(name), std::move(unit), decimals, low_passed(signal)});
   }
 
-  /// One behind a transducer, in units of `scale`; the share of its samples at a limit.
+  /// One behind a transducer, in units of `scale`; the fraction of its samples at a limit.
   double add(std::string name, std::string unit, int decimals, double scale,
              const plant::Sensor& sensor, const Eigen::VectorXd& signal, std::uint64_t seed,
              std::uint64_t stream) {

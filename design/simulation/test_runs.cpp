@@ -12,7 +12,7 @@ namespace {
 struct RunState {
   std::optional<TestRecord> record;
   std::exception_ptr failure;
-  double done = 0.0;  // share
+  double done = 0.0;  // fraction
   bool begun = false;
   bool over = false;
 };

@@ -10,7 +10,7 @@ namespace boresight::design {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// A goal is broken, or another member's rms above the soft goal, only beyond rounding.
+// A constraint is violated, or another member's rms above the objective, only beyond rounding.
 constexpr double rounding = 1e-9;
 constexpr double above = 1e-6;
 

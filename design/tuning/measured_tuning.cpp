@@ -101,8 +101,8 @@ void make_confident(const MeasuredProblem& problem, const MeasuredConstraints& g
   }
 }
 
-// Shares by evaluating the controller on the measured band alone and on what lies below and above
-// it.
+// Fractions by evaluating the controller on the measured band alone and on what lies below and
+// above it.
 void find_fractions(const MeasuredProblem& problem, MeasuredTuningResult& result) {
   const Eigen::ArrayXd grid = measured_grid(problem, problem.points_per_decade, true);
   const double lowest = problem.channels.lowest_frequency() / two_pi;

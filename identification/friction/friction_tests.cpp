@@ -76,7 +76,7 @@ HalfPeriod before_reversal(const Eigen::VectorXd& rate, const HalfPeriod& half) 
   return result;
 }
 
-// The longest settled tail of a half period, else the unsettled share of it. None where too few
+// The longest settled tail of a half period, else the unsettled fraction of it. None where too few
 // samples are usable.
 std::optional<SteadyTail> steady_tail(const DriveRecord& record, std::size_t index,
                                       const Eigen::VectorXd& torque,

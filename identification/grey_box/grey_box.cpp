@@ -41,7 +41,7 @@ double sample_rate(const DriveKnowledge& knowledge, const GreyBoxOptions& option
   return std::max(50.0, 8.0 * highest);
 }
 
-// Share of the flow that an error of the flow balance would make of the leakage's.
+// Fraction of the flow that an error of the flow balance would make of the leakage's.
 double leakage_discrepancy(const GreyBoxObjective& objective,
                            const std::vector<GreyBoxRecord>& records, const P& parameters,
                            const VectorXd& point, double flow_balance) {

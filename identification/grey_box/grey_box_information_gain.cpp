@@ -147,7 +147,7 @@ std::vector<GreyBoxInformationGain> rank_tests(const GreyBoxResult& result,
   const MatrixXd precision =
       numerics::positive_definite_solve(removable, identity, "posterior covariance");
   // Pressures count in a test to come even where no valve command was recorded before: by the
-  // share of the torque that the rate's errors stand for.
+  // fraction of the torque that the rate's errors stand for.
   const double pressure_scale =
       result.pressure_scale > 0.0 ? result.pressure_scale : 0.01 * result.estimate.coulomb_level;
   std::vector<GreyBoxInformationGain> gains;

@@ -324,7 +324,7 @@ GreyBoxParameters::Coefficients GreyBoxParameters::mechanical(const VectorXd& po
     c.by_point(row, from) = by_coordinate(list_[static_cast<std::size_t>(from)], v(from));
   }
   const double factor = recorded_inertia_factor(v);
-  // Shares of the antenna: of the rigid part 1/(1 + sum), of a mode its ratio times that.
+  // Fractions of the antenna: of the rigid part 1/(1 + sum), of a mode its ratio times that.
   double sum = 1.0;
   for (Index i = 0; i < mode_count(); ++i) sum += v(fraction(i));
   const auto inertia = [&](Index row, double motors_and_gears, double part, Index mode) {

@@ -29,7 +29,7 @@ Eigen::VectorXd block_means(const Eigen::VectorXd& values, Index width) {
   return means;
 }
 
-// Share of the samples within a twentieth of the range of one of two levels, the extremes' inner
+// Fraction of the samples within a twentieth of the range of one of two levels, the extremes' inner
 // neighbours.
 double fraction_at_two_levels(const Eigen::VectorXd& values) {
   std::vector<double> sorted(values.data(), values.data() + values.size());

@@ -200,7 +200,7 @@ DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign
                                        torque_scale_uncertainty(record, campaign),
                                        campaign.instruments.tachometer_scale);
     const double k = oil.stiffness.value;
-    // The flow is the rate's and the leakage's, which rests on the orifices' share: two rounds.
+    // The flow is the rate's and the leakage's, which rests on the orifices' fraction: two rounds.
     double leakage = 0.5 * oil.total_loss_rate.value;
     for (int round = 0; round < 6; ++round) {
       const double flow = result.mean_rate + leakage * result.mean_torque / k;
@@ -208,7 +208,7 @@ DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign
           orifice_loss_rate(record, knowledge, k, flow, part.first, part.samples);
       leakage = oil.total_loss_rate.value - oil.orifice_loss_rate;
     }
-    // The share of the orifices to 6 %: supply droop and the valve's law.
+    // The fraction of the orifices to 6 %: supply droop and the valve's law.
     oil.leakage_rate = numerics::normal_interval(
         leakage,
         std::hypot(oil.total_loss_rate.standard_uncertainty, 0.06 * oil.orifice_loss_rate));

@@ -86,7 +86,7 @@ void compare(const Quantity& tested, const Reach& reach, const std::string& unit
   check.add("most by the curve", reach.maximum, unit);
 }
 
-// That share of the supply's torque and two standard uncertainties.
+// That fraction of the supply's torque and two standard uncertainties.
 double clearly_above(const MotorTorque& friction, double fraction, const MotorTorque& supply) {
   return fraction * supply.value +
          2.0 * std::hypot(friction.uncertainty, fraction * supply.uncertainty);

@@ -16,7 +16,7 @@
 namespace boresight::io {
 namespace {
 
-// With every body's shares of wind and beam those of the inertia.
+// With every body's fractions of wind and beam those of the inertia.
 Case with_inertial_fractions(Case antenna) {
   StructureEntry& structure = *antenna.structure;
   double bull_gear = 1.0;

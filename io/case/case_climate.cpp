@@ -52,7 +52,7 @@ void check_keys_of_way(const TableReader& entry, const std::string& way) {
   }
 }
 
-// Of the Weibull law of which that share of all winds lies above `exceeded`.
+// Of the Weibull law of which that fraction of all winds lies above `exceeded`.
 double shape_by_exceedance(const TableReader& entry, const Quantity& mean, const Quantity& exceeded,
                            const Quantity& exceeded_share) {
   const double ratio = exceeded.value / mean.value;
@@ -171,7 +171,7 @@ void read_climate(TableReader& wind, Case& antenna) {
     const double weight = fraction(entry);
     entry.finish();
     weights += weight;
-    // The torque's spectrum goes with the coefficient's square, and so does every loss.
+    // The torque's spectrum scales with the coefficient's square, and so does every loss.
     squares += weight * coefficient * coefficient;
   }
   if (weights > 0.0) antenna.wind->climate_torque_coefficient = std::sqrt(squares / weights);

@@ -14,7 +14,7 @@
 namespace boresight::io {
 namespace {
 
-// Bull gear or mode, of one set of shares.
+// Bull gear or mode, of one set of fractions.
 struct Body {
   double inertia_fraction = 0.0;
   double* fraction = nullptr;

@@ -93,13 +93,13 @@ std::vector<Input> linear_inputs(Case& c) {
   return inputs;
 }
 
-// A share of wind or beam, and of the inertia that the same body has.
+// A fraction of wind or beam, and of the inertia that the same body has.
 struct Fraction {
   double* value;
   double inertia_fraction;
 };
 
-// Bull gear's and modes' shares of wind and beam, each of which sum to 1.
+// Bull gear's and modes' fractions of wind and beam, each of which sum to 1.
 std::array<std::vector<Fraction>, 2> fractions(StructureEntry& structure) {
   double bull_gear = 1.0;
   for (const auto& mode : structure.modes) bull_gear -= mode.inertia_fraction.value;
@@ -113,8 +113,8 @@ std::array<std::vector<Fraction>, 2> fractions(StructureEntry& structure) {
   return groups;
 }
 
-// What a share gains the others lose in proportion to what they have; what it loses goes to their
-// inertias, as little of the wind acts on a light body that had little of it.
+// What a fraction gains the others lose in proportion to what they have; what it loses goes to
+// their inertias, as little of the wind acts on a light body that had little of it.
 void make_room(std::vector<Fraction>& group, const double* moved, double by) {
   double others = 0.0, inertia = 0.0;
   for (const Fraction& one : group) {
@@ -132,7 +132,7 @@ void make_room(std::vector<Fraction>& group, const double* moved, double by) {
   }
 }
 
-// Of the body whose share of wind or beam this is; none of any other number.
+// Of the body whose fraction of wind or beam this is; none of any other number.
 std::optional<double> inertia_fraction_of(const StructureEntry& structure,
                                           const Quantity& fraction) {
   double bull_gear = 1.0;
@@ -147,7 +147,7 @@ std::optional<double> inertia_fraction_of(const StructureEntry& structure,
   return of_bull_gear ? std::optional(bull_gear) : std::nullopt;
 }
 
-// Of a mode's share: an entry of frequencies with the motors held has shares of another mode.
+// Of a mode's fraction: an entry of frequencies with the motors held has fractions of another mode.
 std::optional<std::size_t> mode_of(const StructureEntry& structure, const Quantity& fraction) {
   for (std::size_t i = 0; i < structure.modes.size(); ++i) {
     const auto& mode = structure.modes[i];
@@ -156,9 +156,9 @@ std::optional<std::size_t> mode_of(const StructureEntry& structure, const Quanti
   return std::nullopt;
 }
 
-// A guess of a share may as well be the inertia fraction, and as wrong the other way; by half of it
-// where it is that fraction. One above 1, which balances a negative one, is as much as that makes
-// it.
+// A guess of a fraction may as well be the inertia fraction, and as wrong the other way; by half of
+// it where it is that fraction. One above 1, which balances a negative one, is as much as that
+// makes it.
 std::pair<double, double> guessed_range(double fraction, double inertia_fraction) {
   constexpr double half = 0.5;
   const double by = std::max(std::abs(fraction - inertia_fraction), half * fraction);
@@ -188,7 +188,7 @@ MovableNumber planned(const Case& antenna, const Quantity& stated) {
 void move(Case& antenna, std::size_t which, double by) {
   const Input input = linear_inputs(antenna)[which];
   double* moved = input.value;
-  // A number that works converted, as of a wind mast, moves by the same share.
+  // A number that works converted, as of a wind mast, moves by the same fraction.
   if (input.stated->value != 0.0) by *= *moved / input.stated->value;
   for (auto& group : fractions(*antenna.structure)) {
     if (std::ranges::find(group, moved, &Fraction::value) != group.end())

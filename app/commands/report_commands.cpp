@@ -74,6 +74,10 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
                                  : plant.ensemble.members,
               options.threads, section);
   if (!section.ensemble) return;
+  // As montecarlo draws them.
+  add_probabilities(
+      plant.mission, plant.distribution,
+      {.plants = 2000, .seed = options.seed, .retune = false, .threads = options.threads}, section);
   if (plant.from_records) {
     section.instability = design::instability(
         plant.mission, design::PlantDistribution::of_ranges(plant.mission),

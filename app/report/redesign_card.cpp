@@ -149,40 +149,49 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
           std::string(loops)};
 }
 
-// "; inputs 0.270 to 0.500, 1 sigma"; empty without any.
-std::string input_range_text(const TuningSection& section) {
-  if (section.input_effects.empty()) return "";
-  const auto range = combined_range(section.input_effects, section.design.boresight_rms);
-  return fmt::format("; inputs {} to {}, 1 sigma", mdeg(range.lower),
-                     std::isfinite(range.upper) ? mdeg(range.upper) : "unstable");
+std::string upper_end(double rms) {
+  return std::isfinite(rms) ? mdeg(rms) : "unstable";
+}
+
+// " (95 % 0.410 to 0.425 over 10 winds; inputs 0.195 to 0.558, 1 sigma)": behind the rms what it is
+// uncertain by.
+std::string uncertainty_text(const Report& report, const TuningSection& section,
+                             const design::RmsRange& range) {
+  std::vector<std::string> parts;
+  if (const design::SimulatedRms* expected = expected_rms(report)) {
+    parts.push_back(fmt::format("95 % {} to {} over {} winds", mdeg(expected->rms.lower),
+                                mdeg(expected->rms.upper), expected->records));
+  } else if (simulated(report)) {
+    parts.emplace_back("one record");
+  }
+  if (!section.input_effects.empty()) {
+    parts.push_back(
+        fmt::format("inputs {} to {}, 1 sigma", mdeg(range.lower), upper_end(range.upper)));
+  }
+  return parts.empty() ? "" : fmt::format(" ({})", fmt::join(parts, "; "));
 }
 
 CardLine pointing_line(const Report& report, const TuningSection& section) {
   const auto tightest = std::ranges::min_element(
       section.budgets, {}, [](const BudgetResult& one) { return one.budget.rms; });
+  const auto range = combined_range(section.input_effects, section.design.boresight_rms);
   const design::SimulatedRms* expected = expected_rms(report);
-  const std::string by_inputs = input_range_text(section);
   std::string text =
-      expected != nullptr
-          ? fmt::format("{} mdeg rms at {:.3g} m/s, simulated (95 % {} to {} over {} winds{})",
-                        mdeg(expected->rms.value), report.time_domain->wind_speed,
-                        mdeg(expected->rms.lower), mdeg(expected->rms.upper), expected->records,
-                        by_inputs)
-      : simulated(report) ? fmt::format("{} mdeg rms at {:.3g} m/s, simulated (one record{})",
-                                        mdeg(report.time_domain->result.wind.boresight_rms),
-                                        report.time_domain->wind_speed, by_inputs)
-                          : fmt::format("{} mdeg rms at {:.3g} m/s, linear plant, not simulated{}",
-                                        mdeg(section.design.boresight_rms), section.design_speed,
-                                        by_inputs.empty() ? "" : " (" + by_inputs.substr(2) + ")");
+      simulated(report)
+          ? fmt::format("{} mdeg rms at {:.3g} m/s, simulated",
+                        mdeg(expected != nullptr ? expected->rms.value
+                                                 : report.time_domain->result.wind.boresight_rms),
+                        report.time_domain->wind_speed)
+          : fmt::format("{} mdeg rms at {:.3g} m/s, linear plant, not simulated",
+                        mdeg(section.design.boresight_rms), section.design_speed);
+  text += uncertainty_text(report, section, range);
   if (section.effect.amplitude > 0.0 && std::isfinite(section.effect.factor)) {
     text += fmt::format("; {} with limit cycle",
                         mdeg(section.effect.rms(section.design.boresight_rms)));
   }
   if (tightest != section.budgets.end()) {
     const bool met = tightest->wind_speed_limit >= section.design_speed;
-    const auto range = combined_range(section.input_effects, section.design.boresight_rms);
-    const bool sure =
-        section.input_effects.empty() || section.effect.rms(range.upper) <= tightest->budget.rms;
+    const bool sure = design::within_budget(section.effect.rms(range.upper), tightest->budget.rms);
     text += fmt::format("; budget {}, {}", mdeg(tightest->budget.rms),
                         !met    ? "MISSED"
                         : !sure ? "met nominally"
@@ -242,12 +251,9 @@ CardLine budget_line(const Report& report, const TuningSection& section, std::si
     const auto& needed = result.budget.wind_speed;
     if (needed) text += fmt::format(" (required {:.3g})", *needed);
     if (budgets.empty() && result.probability) {
-      const auto models =
-          static_cast<double>(section.ensemble ? section.ensemble->members.size() : 0);
-      text += fmt::format(", on {:.0f}/{:.0f} models at {:.3g} m/s (probability {:.2f} to {:.2f})",
-                          result.probability->value * models, models,
-                          needed.value_or(section.design_speed), result.probability->lower,
-                          result.probability->upper);
+      text += fmt::format(", probability {:.3f} ({:.3f} to {:.3f}) at {:.3g} m/s",
+                          result.probability->value, result.probability->lower,
+                          result.probability->upper, needed.value_or(section.design_speed));
     }
     budgets.push_back(std::move(text));
   }
@@ -392,7 +398,7 @@ CardLine test_line(const Report& report, const TuningSection& section) {
   const auto range = combined_range(alone, section.design.boresight_rms);
   return {"Next test",
           fmt::format("{}: rms {} to {} mdeg over {}", test->test, mdeg(range.lower),
-                      std::isfinite(range.upper) ? mdeg(range.upper) : "unstable", test->quantity),
+                      upper_end(range.upper), test->quantity),
           std::string(loops)};
 }
 

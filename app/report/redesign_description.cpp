@@ -215,6 +215,16 @@ void describe_inputs(io::Visitor& v, const TuningSection& section) {
              });
 }
 
+void describe_probability(io::Visitor& v, std::string_view key,
+                          const std::optional<design::EstimatedNumber>& probability,
+                          std::string_view meaning) {
+  v.optional_group(key, probability, meaning, [&](const design::EstimatedNumber& found) {
+    v.number("value", found.value, unit::ratio, "Fraction of the plants.");
+    v.number("lower", found.lower, unit::ratio, "Of the interval.");
+    v.number("upper", found.upper, unit::ratio, "Of the interval.");
+  });
+}
+
 void describe_budgets(io::Visitor& v, const TuningSection& section) {
   v.list(
       "budgets", section.budgets, "Wind speed up to which each budget is met.",
@@ -233,16 +243,11 @@ void describe_budgets(io::Visitor& v, const TuningSection& section) {
         v.count("plants_met", result.plants_met,
                 "Plants of the ensemble on which it is met in the wind up to which the case "
                 "needs it, supply torque not counted; null without such a wind or an ensemble.");
-        v.optional_group(
-            "probability", result.probability,
-            "That a plant of the ensemble meets it in the wind up to which the case needs it, or "
-            "in the design wind if it states none, with the 95 % interval for the number of "
-            "plants; null without an ensemble.",
-            [&](const design::Probability& found) {
-              v.number("value", found.value, unit::ratio, "Plants that meet it over all.");
-              v.number("lower", found.lower, unit::ratio, "Of the interval.");
-              v.number("upper", found.upper, unit::ratio, "Of the interval.");
-            });
+        describe_probability(
+            v, "probability", result.probability,
+            "That a plant sampled from the case's ranges, or from what the records leave open, "
+            "meets it in the wind up to which the case needs it, or in the design wind if it "
+            "states none, with its 95 % interval; null without a stable controller.");
         describe_fraction_of_time(v, section.climate, reached_wind_speed(section, result),
                                   "Fraction of the climate's time up to that speed, or up to the "
                                   "supply's if that is less; null without a climate.");
@@ -289,16 +294,10 @@ void describe(io::Visitor& v, const TuningSection& section) {
   v.object("ensemble", section.ensemble,
            "The design's controller with fixed gains on the ensemble members: drawn from what the "
            "records leave open, otherwise the case's ensemble; null without a stable controller.");
-  v.group_if(
-      "instability", section.instability.has_value(),
+  describe_probability(
+      v, "instability", section.instability,
       "Of a redesign from records: probability that the loop is unstable on a sample of the case's "
-      "ranges about the identified plant, with its 95 % interval; null without records.",
-      [&] {
-        const auto found = section.instability.value_or(design::EstimatedNumber{});
-        v.number("value", found.value, unit::ratio, "Unstable samples over all.");
-        v.number("lower", found.lower, unit::ratio, "Of the interval.");
-        v.number("upper", found.upper, unit::ratio, "Of the interval.");
-      });
+      "ranges about the identified plant, with its 95 % interval; null without records.");
   v.optional_group(
       "step_overshoot", section.curves,
       "Fraction of a step of the command by which the response exceeds it, continuous, without "

@@ -128,9 +128,9 @@ std::string ensemble_text(const design::EnsembleResult& ensemble, std::string_vi
           : "is unstable");
 }
 
-// "0.93 (0.79 to 0.98)".
-std::string probability_text(const design::Probability& found) {
-  return fmt::format("{:.2f} ({:.2f} to {:.2f})", found.value, found.lower, found.upper);
+// "0.869 (0.853 to 0.883)".
+std::string probability_text(const design::EstimatedNumber& found) {
+  return fmt::format("{:.3f} ({:.3f} to {:.3f})", found.value, found.lower, found.upper);
 }
 
 std::string overshoot_text(const design::EnsembleCurves& curves) {

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <utility>
 
+#include <boresight/design/problem/nonlinear_effect.hpp>
 #include <boresight/design/studies/monte_carlo_study.hpp>
 
 namespace boresight::design {
@@ -39,16 +42,59 @@ MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribut
   return summarise(run, mission, distribution, options.seed, options.threads);
 }
 
+namespace {
+
+// Of every plant: not polled.
+std::vector<PlantOutcome> outcomes_of(const Mission& mission, const PlantDistribution& distribution,
+                                      const control::Controller& controller,
+                                      const MonteCarloOptions& options) {
+  MonteCarloRun run(monte_carlo_of(mission, distribution, controller, options));
+  run.work_on(run.missing_blocks(), {.threads = options.threads, .stop = {}, .watch = {}});
+  std::vector<PlantOutcome> outcomes;
+  outcomes.reserve(options.plants);
+  for (std::uint64_t index = 0; index < options.plants; ++index) {
+    outcomes.push_back(run.outcome(index));
+  }
+  return outcomes;
+}
+
+template <typename Condition>
+EstimatedNumber probability_of(const std::vector<PlantOutcome>& outcomes, const Condition& holds) {
+  return probability(static_cast<std::uint64_t>(std::ranges::count_if(outcomes, holds)),
+                     outcomes.size());
+}
+
+}  // namespace
+
+std::vector<EstimatedNumber> budget_probabilities(const Mission& mission,
+                                                  const PlantDistribution& distribution,
+                                                  const control::Controller& controller,
+                                                  const std::vector<PointingBudget>& budgets,
+                                                  const NonlinearEffect& effect,
+                                                  const MonteCarloOptions& options) {
+  std::map<double, std::vector<PlantOutcome>> by_speed;
+  std::vector<EstimatedNumber> met;
+  for (const auto& budget : budgets) {
+    const double speed = budget.wind_speed.value_or(mission.wind.mean_speed);
+    auto found = by_speed.find(speed);
+    if (found == by_speed.end()) {
+      Mission windy = mission;
+      windy.wind.mean_speed = speed;
+      windy.climate.clear();  // costs time and enters no budget
+      found = by_speed.emplace(speed, outcomes_of(windy, distribution, controller, options)).first;
+    }
+    met.push_back(probability_of(found->second, [&](const PlantOutcome& one) {
+      return one.stable() && within_budget(effect.rms(one.boresight_rms), budget.rms);
+    }));
+  }
+  return met;
+}
+
 EstimatedNumber instability(const Mission& mission, const PlantDistribution& distribution,
                             const control::Controller& controller,
                             const MonteCarloOptions& options) {
-  MonteCarloRun run(monte_carlo_of(mission, distribution, controller, options));
-  run.work_on(run.missing_blocks(), {.threads = options.threads, .stop = {}, .watch = {}});
-  std::uint64_t unstable = 0;
-  for (std::uint64_t index = 0; index < options.plants; ++index) {
-    if (!run.outcome(index).stable()) ++unstable;
-  }
-  return probability(unstable, options.plants);
+  return probability_of(outcomes_of(mission, distribution, controller, options),
+                        [](const PlantOutcome& one) { return !one.stable(); });
 }
 
 }  // namespace boresight::design

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <vector>
 
 #include <boresight/design/studies/monte_carlo_summary.hpp>
 
@@ -33,6 +34,17 @@ MonteCarlo monte_carlo_of(const Mission& mission, const PlantDistribution& distr
 MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribution& distribution,
                                     const control::Controller& controller,
                                     const MonteCarloOptions& options);
+
+/// Probability that a plant of the distribution meets each budget, gains fixed, in the wind up to
+/// which the budget is needed, or in the mission's design wind if it states none. At the design
+/// wind: MonteCarloSummary::budgets of that study, with `effect` in place of its simulation.
+/// @throws as instability.
+std::vector<EstimatedNumber> budget_probabilities(const Mission& mission,
+                                                  const PlantDistribution& distribution,
+                                                  const control::Controller& controller,
+                                                  const std::vector<PointingBudget>& budgets,
+                                                  const NonlinearEffect& effect,
+                                                  const MonteCarloOptions& options);
 
 /// MonteCarloSummary::instability of that study alone, without its simulation.
 /// @throws as study_monte_carlo, but not Interrupted: it is not polled.

@@ -252,13 +252,6 @@ std::optional<TimeDomainStudy> time_domain_of(const Mission& mission, Controller
                                SecondIntegrator::cvodes);
 }
 
-// That a member is one of `met`.
-Probability fraction_of_members(int met, std::size_t members) {
-  Eigen::ArrayXd scores = Eigen::ArrayXd::Zero(static_cast<Eigen::Index>(members));
-  scores.head(met) = 1.0;
-  return mean_score(scores, 0.95);
-}
-
 }  // namespace
 
 RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
@@ -320,12 +313,17 @@ void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
                                   highest_compared_speed(design.design_speed, limits), threads);
   const auto met = plants_within_budgets(design.problem, members, controller, design.goals, budgets,
                                          design.effect, threads);
-  for (std::size_t i = 0; i < met.size(); ++i) {
-    design.budgets[i].plants_met = met[i];
-    design.budgets[i].probability = fraction_of_members(
-        met[i].value_or(members_within(budgets[i], design.effect, *design.ensemble)),
-        members.size());
-  }
+  for (std::size_t i = 0; i < met.size(); ++i) design.budgets[i].plants_met = met[i];
+}
+
+void add_probabilities(const Mission& mission, const PlantDistribution& distribution,
+                       const MonteCarloOptions& options, RecommendedDesign& design) {
+  if (design.design.tuning.status == TuningStatus::unstable) return;
+  std::vector<PointingBudget> budgets;
+  for (const auto& result : design.budgets) budgets.push_back(result.budget);
+  const auto found = budget_probabilities(mission, distribution, design.design.tuning.controller,
+                                          budgets, design.effect, options);
+  for (std::size_t i = 0; i < found.size(); ++i) design.budgets[i].probability = found[i];
 }
 
 }  // namespace boresight::design

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <boresight/design/decisions/decision_statistics.hpp>
 #include <boresight/design/ensembles/ensemble_curves.hpp>
 #include <boresight/design/studies/controller_study.hpp>
+#include <boresight/design/studies/monte_carlo_study.hpp>
 
 namespace boresight::design {
 
@@ -20,9 +20,9 @@ struct BudgetResult {
   /// Ensemble members on which it is met in the wind up to which it is needed. None for a budget
   /// that states no such wind, and without an ensemble.
   std::optional<int> plants_met = std::nullopt;
-  /// That a member of the ensemble meets it in that wind, or in the design wind for a budget that
-  /// states none: mean_score with 95 % confidence. None without an ensemble.
-  std::optional<Probability> probability = std::nullopt;
+  /// That a plant of a distribution meets it in that wind, or in the design wind for a budget that
+  /// states none (add_probabilities).
+  std::optional<EstimatedNumber> probability = std::nullopt;
 };
 
 /// The recommended controller in detail.
@@ -161,5 +161,11 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
 /// in its wind. Does nothing for an unstable design or without members.
 void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
                  RecommendedDesign& design);
+
+/// Sets the probability of each budget by budget_probabilities. Does nothing for an unstable
+/// design. The members of an ensemble include corners and are no random sample: their fraction is
+/// no probability.
+void add_probabilities(const Mission& mission, const PlantDistribution& distribution,
+                       const MonteCarloOptions& options, RecommendedDesign& design);
 
 }  // namespace boresight::design

@@ -243,8 +243,8 @@ class Numbers(unittest.TestCase):
         for budget in found["tuning"]["budgets"]:
             limit, chance = budget["wind_speed_limit_m_per_s"], budget["probability"]
             self.assertIsNotNone(re.search(
-                rf"{re.escape(budget['name'])} +{budget['band']} .* {limit:.2f} +{3.6 * limit:.1f} +{chance['value_1']:.2f} "
-                rf"\({chance['lower_1']:.2f} to {chance['upper_1']:.2f}\)\n", text))
+                rf"{re.escape(budget['name'])} +{budget['band']} .* {limit:.2f} +{3.6 * limit:.1f} +{chance['value_1']:.3f} "
+                rf"\({chance['lower_1']:.3f} to {chance['upper_1']:.3f}\)\n", text))
         for assumed in found["assumed_inputs"]:
             self.assertRegex(text, rf"{re.escape(assumed['key'])} +{re.escape(assumed['value'])} ")
 

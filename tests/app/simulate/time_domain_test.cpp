@@ -468,7 +468,7 @@ TEST(TimeDomain, SimulatesTheMissionsOwnGainsInAllRecords) {
                                            2, design::SecondIntegrator::none);
   ASSERT_TRUE(study && study->present && study->rms);
   ASSERT_TRUE(study->present->simulated_rms);
-  EXPECT_NEAR(*study->present->simulated_rms, study->rms->rms.value, 1e-9 * study->rms->rms.value);
+  EXPECT_NEAR(*study->present->simulated_rms, study->rms->rms.value, 1e-12 * study->rms->rms.value);
 }
 
 }  // namespace

@@ -75,6 +75,40 @@ TEST(Instability, IsThatOfTheStudy) {
   }
 }
 
+// The same plants as the study's, with its effect; in the wind that a budget states.
+TEST(BudgetProbabilities, AreThoseOfTheStudyInEachBudgetsWind) {
+  Mission mission = mission_of_test();
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  const MonteCarloOptions options{.plants = 100, .seed = 5};
+  const auto summary_of = [&] {
+    return study_monte_carlo(mission, distribution, controller_of_test(), options);
+  };
+  const auto first = summary_of();
+  const NonlinearEffect effect = first.effect.for_budgets();
+  mission.budgets.front().rms =
+      effect.rms(0.5 * (first.boresight_rms.minimum + first.boresight_rms.largest));
+  const auto summary = summary_of();
+  PointingBudget windy = mission.budgets.front();
+  windy.wind_speed = 1.5 * mission.wind.mean_speed;
+  const auto found = budget_probabilities(mission, distribution, controller_of_test(),
+                                          {mission.budgets.front(), windy}, effect, options);
+  ASSERT_EQ(found.size(), 2U);
+  const EstimatedNumber& met = summary.budgets.front().met;
+  EXPECT_GT(met.value, 0.0);
+  EXPECT_LT(met.value, 1.0);
+  EXPECT_EQ(found[0].value, met.value);
+  EXPECT_EQ(found[0].lower, met.lower);
+  EXPECT_EQ(found[0].upper, met.upper);
+  EXPECT_LT(found[1].value, met.value);
+  mission.wind.mean_speed *= 1.5;
+  mission.budgets = {mission.budgets.front()};
+  mission.budgets.front().wind_speed.reset();
+  EXPECT_EQ(found[1].value, budget_probabilities(mission, distribution, controller_of_test(),
+                                                 mission.budgets, effect, options)
+                                .front()
+                                .value);
+}
+
 // As many plants meet a budget as have a linear rms below what the simulation leaves of it.
 TEST(StudyMonteCarlo, JudgesBudgetsByTheSimulationOfItsController) {
   Mission mission = mission_of_test();

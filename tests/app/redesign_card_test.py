@@ -73,7 +73,7 @@ PLACES = {"Recommended": ("tuning",), "Load": ("tuning",), "Do not load": ("tuni
 # How the key of a value ends whose number stands before a unit, and what makes it that unit.
 UNITS = {"mdeg": {"_mdeg": 1}, "m/s": {"_m_per_s": 1}, "kg m2": {"_kg_m2": 1}, "deg": {"_deg": 1}, "dB": {"_dB": 1},
          "rad/s": {"_rad_per_s": 1}, "1/s": {"_per_s": 1}, "Hz": {"_Hz": 1, "_rad_per_s": 0.5 / math.pi},
-         "%": {"_1": 100, "value": 100}, "": {"": 1}}
+         "%": {"_1": 100, "value": 100}, "probability": {"_1": 1}, "": {"": 1}}
 FIGURE = re.compile(r"(?<![\w.])(?P<number>\d+(?:\.\d+)?)(?!\w|/[a-z])(?=(?: (?:to|and) [\d.]+)? ?"
                     r"(?P<unit>mdeg|m/s|kg m2|deg|dB|rad/s(?!\w)|1/s|Hz|%)?)")
 
@@ -87,16 +87,21 @@ def shown_as(number, unit, key, value):
 
 
 def figures_of(label, text):
-    """(number, unit) of a line. Errors stand in mdeg, with three decimals, where no unit is behind them."""
+    """(number, unit) of a line; with three decimals and no unit behind it an error in mdeg or a probability."""
     # How long a test takes and which confidence an interval has are no figures of the report.
     if label == "Next test":
         text = text.partition(" moves the rms from ")[2]
     # "0.527 to 10.6 m/s" is a budget and its wind speed, and no range.
     if label.startswith("Budgets"):
         text = text.replace(" to ", ", ")
-    for found in FIGURE.finditer(text.replace("95 %", "")):
+    text = text.replace("95 %", "")
+    probabilities = [found.span() for found in re.finditer(r"probability [\d.]+ \([\d.]+, [\d.]+\)", text)]
+    for found in FIGURE.finditer(text):
         number, unit = found["number"], found["unit"] or ""
-        yield number, "mdeg" if not unit and re.fullmatch(r"\d+\.\d{3}", number) else unit
+        if any(start <= found.start() < end for start, end in probabilities):
+            yield number, "probability"
+        else:
+            yield number, "mdeg" if not unit and re.fullmatch(r"\d+\.\d{3}", number) else unit
 
 
 def is_in(report, label, number, unit):

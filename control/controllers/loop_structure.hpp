@@ -13,11 +13,6 @@ namespace boresight::control {
 ///   position   P  of the corrected angle
 ///   compliance C  of motor torque: estimates the flexure beyond the encoder (non-collocated)
 ///   u = R (r - tachometer) - Q torque,   r = -P (encoder - C torque)
-///   rate       R  of rate command less tachometer
-///   pressure   Q  of motor torque (dynamic pressure feedback)
-///   position   P  of the corrected angle
-///   compliance C  of motor torque: what the encoder does not see of the bending
-///   u = R (r - tachometer) - Q torque,   r = -P (encoder - C torque)
 enum class LoopPath { rate, pressure, position, compliance };
 std::string_view to_string(LoopPath path);
 

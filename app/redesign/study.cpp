@@ -18,14 +18,6 @@
 namespace boresight::app {
 namespace {
 
-std::vector<control::LoopStructure> matched_structures(const io::Case& antenna) {
-  std::vector<std::string> names = antenna.tuning->structures;
-  if (names.empty()) names = {"PI", "PI-0"};
-  std::vector<control::LoopStructure> structures;
-  for (const auto& name : names) structures.push_back(io::loop_structure(antenna, name));
-  return structures;
-}
-
 // The case's own numbers, as built, and those of ratio 1 by every inertia of the antenna.
 std::vector<design::RedesignTask::Disks> matched_disks(const io::Case& antenna) {
   std::vector<double> counts = antenna.matching->disks;
@@ -76,7 +68,6 @@ void redesign(const io::DesignedAntenna& designed, const StudyOptions& options, 
     if (choice.antenna) task.alternatives.push_back({choice.result.name, *choice.antenna});
   }
   task.disks = matched_disks(antenna);
-  task.structures = matched_structures(antenna);
   task.seed = options.seed;
   task.threads = options.threads;
   task.progress = options.progress;

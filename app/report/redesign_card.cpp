@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/redesign_card.hpp>
+#include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/decisions/confidence.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -65,13 +67,20 @@ std::size_t unstable_members(const TuningSection& section) {
   return section.ensemble->members.size() - static_cast<std::size_t>(section.ensemble->stable);
 }
 
+std::size_t members_beyond_constraints(const TuningSection& section) {
+  if (!section.ensemble) return 0;
+  return section.ensemble->members.size() -
+         static_cast<std::size_t>(section.ensemble->within_constraints);
+}
+
 design::ConfidenceGrade confidence(const Report& report, const TuningSection& section) {
   design::Evidence evidence;
   evidence.fitness = section.fitness;
   evidence.simulated = simulated(report);
   evidence.plant = plant_basis(report);
   const bool unstable_samples = section.instability && section.instability->value > 0.0;
-  evidence.stable_on_members = unstable_members(section) == 0 && !unstable_samples;
+  evidence.constraints_met_on_members =
+      members_beyond_constraints(section) == 0 && !unstable_samples;
   evidence.inertias_agree = inertias_agree(report);
   evidence.resonance_agrees = !report.resonance || !report.resonance->contradicts();
   evidence.verdict_depends_on_interpretation =
@@ -232,19 +241,26 @@ CardLine present_line(const Report& report, const TuningSection& section) {
                           in_wind ? "simulated" : "linear plant"));
 }
 
-// The `shown` that matter first: required ones before others, the tightest before wider ones. The
+// How much of the budgets a card has room for.
+struct BudgetDetail {
+  std::size_t shown = 3;
+  bool named = true;
+};
+
+// Those that matter first: required ones before others, the tightest before wider ones. The
 // probability of the first.
-CardLine budget_line(const Report& report, const TuningSection& section, std::size_t shown) {
+CardLine budget_line(const Report& report, const TuningSection& section,
+                     const BudgetDetail& detail) {
   std::vector<BudgetResult> order = section.budgets;
   std::ranges::stable_sort(order, {}, [](const BudgetResult& one) {
     return std::pair(!one.budget.wind_speed.has_value(), one.budget.rms);
   });
-  if (order.size() > shown) order.resize(shown);
+  if (order.size() > detail.shown) order.resize(detail.shown);
   std::vector<std::string> budgets;
   for (const auto& result : order) {
     const double reached = reached_wind_speed(section, result);
-    std::string text = fmt::format("{} {} ({}) {}", result.budget.band, mdeg(result.budget.rms),
-                                   result.budget.name,
+    std::string text = fmt::format("{} {}{} {}", result.budget.band, mdeg(result.budget.rms),
+                                   detail.named ? fmt::format(" ({})", result.budget.name) : "",
                                    !(reached > 0.0)         ? std::string("in no wind")
                                    : std::isfinite(reached) ? fmt::format("to {:.1f} m/s", reached)
                                                             : std::string("in every wind"));
@@ -257,10 +273,11 @@ CardLine budget_line(const Report& report, const TuningSection& section, std::si
     }
     budgets.push_back(std::move(text));
   }
+  // Without room for names the line of the error says it.
+  const char* basis = !detail.named ? "" : simulated(report) ? "; simulated" : "; linear";
   return {"Budgets (mdeg)",
           budgets.empty() ? "the case states none ([[pointing.budget]])"
-                          : fmt::format("{}; {}", fmt::join(budgets, "; "),
-                                        simulated(report) ? "simulated" : "linear"),
+                          : fmt::format("{}{}", fmt::join(budgets, "; "), basis),
           std::string(loops)};
 }
 
@@ -325,9 +342,9 @@ CardLine flywheel_line(const MatchingSection& section) {
   const auto at = [&](const MatchingSeries& one, std::size_t row) {
     return mdeg(one.designs[row].boresight_rms);
   };
-  // Other loops than the recommended ones, on the nominal plant.
+  // Tuned on the nominal plant at each inertia, not robustly.
   const std::string text = fmt::format(
-      "{}, linear: {} mdeg at {} as built, {} at {}", control::to_string(series.structure),
+      "{}, linear: {} mdeg at {} as built, {} at {}", control::short_name(series.structure),
       at(series, built), section.rows[built].label, at(series, end), section.rows[end].label);
   const bool better = verdict.change(series, end) < -negligible_change;
   if (verdict.flat() || (!better && !verdict.friction_decides())) {
@@ -420,7 +437,7 @@ CardLine confidence_line(const Report& report, const TuningSection& section) {
   return {"Confidence", text, std::string(inputs)};
 }
 
-std::vector<CardLine> card_with_budgets(const Report& report, std::size_t budgets) {
+std::vector<CardLine> card_with_budgets(const Report& report, const BudgetDetail& budgets) {
   const TuningSection& section = *report.tuning;
   std::vector<CardLine> card{controller_line(report, section)};
   if (section.design.usable()) {
@@ -441,10 +458,11 @@ std::vector<CardLine> card_with_budgets(const Report& report, std::size_t budget
 
 std::vector<CardLine> redesign_card(const Report& report) {
   if (!report.tuning) return {};
-  // On one screen: of a controller of many gains fewer budgets are shown.
+  // On one screen: of a controller of many gains fewer budgets are shown, or one without its name.
   constexpr std::ptrdiff_t most_lines = 16;
+  constexpr std::array<BudgetDetail, 4> details{{{3, true}, {2, true}, {1, true}, {1, false}}};
   std::vector<CardLine> card;
-  for (std::size_t budgets = 3; budgets > 0; --budgets) {
+  for (const auto& budgets : details) {
     card = card_with_budgets(report, budgets);
     // Behind a blank line.
     if (std::ranges::count(to_text(document_of(card)), '\n') <= 1 + most_lines) break;

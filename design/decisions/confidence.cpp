@@ -21,7 +21,8 @@ ConfidenceGrade grade(const Evidence& evidence) {
   };
   const Fitness fitness = evidence.fitness;
   doubt(fitness >= Fitness::misses_nominal, Doubt::not_verified);
-  doubt(fitness == Fitness::misses_member || !evidence.stable_on_members, Doubt::not_robust);
+  doubt(fitness == Fitness::misses_member || !evidence.constraints_met_on_members,
+        Doubt::not_robust);
   doubt(!evidence.simulated, Doubt::not_simulated);
   doubt(fitness == Fitness::limit_cycle || fitness == Fitness::not_shown, Doubt::limit_cycle);
   doubt(!evidence.inertias_agree, Doubt::inertias_disagree);

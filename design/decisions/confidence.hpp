@@ -19,9 +19,10 @@ struct Evidence {
   Fitness fitness = Fitness::unstable;
   bool simulated = false;  // on the nonlinear antenna, the run in wind completed
   PlantBasis plant = PlantBasis::drawings;
-  bool stable_on_members = true;  // on every ensemble member that it was evaluated on
-  bool inertias_agree = true;     // independent estimates of the reflected inertia
-  bool resonance_agrees = true;   // the measured hydraulic frequency agrees with the plant's
+  /// Stable and within every constraint on every ensemble member that it was evaluated on.
+  bool constraints_met_on_members = true;
+  bool inertias_agree = true;    // independent estimates of the reflected inertia
+  bool resonance_agrees = true;  // the measured hydraulic frequency agrees with the plant's
   /// Another interpretation of the evidence changes whether a required budget is met.
   bool verdict_depends_on_interpretation = false;
   /// Largest relative change of the rms by one number of the case within its uncertainty.

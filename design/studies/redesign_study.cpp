@@ -146,7 +146,11 @@ struct FlywheelPlan {
   std::vector<DesignTask> tasks;
 };
 
-FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task) {
+FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task,
+                            const TunedController& best) {
+  // The recommended gains are one more start of each search.
+  constexpr int starts = 6;
+  const control::Controller& recommended = best.design.tuning.controller;
   FlywheelPlan plan;
   const plant::Antenna& antenna = mission.antenna;
   for (const auto& [count, label] : task.disks) {
@@ -169,15 +173,15 @@ FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task) {
     frictions = {{linear, ""}};
   }
   for (const auto& [friction, name] : frictions) {
-    for (const auto& structure : task.structures) {
-      plan.comparison.series.push_back({name, friction, structure, {}});
-      for (const auto& row : plan.comparison.rows) {
-        plan.tasks.push_back(
-            make_task(mission, task.seed, row.label,
-                      changed(antenna, {plant::set_to("motor.flywheel_disks", row.disks),
-                                        plant::set_to("drive.viscous_friction", friction)}),
-                      structure));
-      }
+    plan.comparison.series.push_back({name, friction, recommended.structure, {}});
+    for (const auto& row : plan.comparison.rows) {
+      plan.tasks.push_back(
+          make_task(mission, task.seed, row.label,
+                    changed(antenna, {plant::set_to("motor.flywheel_disks", row.disks),
+                                      plant::set_to("drive.viscous_friction", friction)}),
+                    recommended.structure));
+      plan.tasks.back().options.starts = starts;
+      if (best.stable()) plan.tasks.back().options.warm_starts = {recommended.gains};
     }
   }
   return plan;
@@ -268,7 +272,7 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
     alternatives.push_back(
         make_task(mission, task.seed, name, antenna, best.design.tuning.controller.structure));
   }
-  FlywheelPlan flywheels = plan_flywheels(mission, task);
+  FlywheelPlan flywheels = plan_flywheels(mission, task, best);
 
   std::vector<DesignTask> tasks = seeds;
   tasks.insert(tasks.end(), alternatives.begin(), alternatives.end());

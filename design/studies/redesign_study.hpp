@@ -133,8 +133,7 @@ struct RedesignTask {
     double count = 0.0;
     std::string label;
   };
-  std::vector<Disks> disks;                        // ascending
-  std::vector<control::LoopStructure> structures;  // of the flywheel comparison
+  std::vector<Disks> disks;  // of the flywheel comparison, ascending
   std::uint64_t seed = 1;
   unsigned threads = 2;
   /// Called with the numbers of tasks done and in total; may be empty.
@@ -151,8 +150,8 @@ struct RedesignStudy {
 
 /// Evaluates the controller that study_controllers recommends, or the least unfit where none is
 /// fit. It repeats the search from eight seeds, starting with the task's. It tunes the controller's
-/// structure for the alternatives. It tunes the task's structures at each number of disks, with the
-/// linear plant's friction and with the friction curve's slope at the tracking rate.
+/// structure for the alternatives, and at each number of disks with the linear plant's friction and
+/// with the friction curve's slope at the tracking rate.
 /// @throws as study_controllers.
 RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
                        const RedesignTask& task);

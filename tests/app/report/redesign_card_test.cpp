@@ -140,8 +140,8 @@ TEST(RedesignCard, CountsUnstableModels) {
   Report report = report_of_test();
   EXPECT_THAT(line_of(report, "Margins"), Not(HasSubstr("UNSTABLE")));
   EXPECT_THAT(line_of(report, "Load"), StartsWith("PI-0"));
-  report.tuning->ensemble->stable = 29;
-  EXPECT_THAT(line_of(report, "Margins"), EndsWith("30/30 models, 1 UNSTABLE"));
+  report.tuning->ensemble->stable = report.tuning->ensemble->within_constraints = 29;
+  EXPECT_THAT(line_of(report, "Margins"), EndsWith("29/30 models, 1 UNSTABLE"));
   EXPECT_THAT(line_of(report, "Confidence"),
               StartsWith("low: constraints violated on some models"));
   EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
@@ -235,14 +235,14 @@ TEST(RedesignCard, ChangesFlywheelsOnlyForWhatDecides) {
   Report report = report_of_test();
   report.matching = flywheels({{0.499, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"),
-              StartsWith("keep; PI without lag, linear: 0.500 mdeg at 24 disks as built, 0.499 at "
+              StartsWith("keep; PI-0, linear: 0.500 mdeg at 24 disks as built, 0.499 at "
                          "0 disks"));
   report.matching = flywheels({{0.6, 0.5}});
   EXPECT_THAT(line_of(report, "Flywheels"), StartsWith("keep; "));
   report.matching = flywheels({{0.4, 0.5}});
-  EXPECT_THAT(line_of(report, "Flywheels"),
-              AllOf(StartsWith("change; PI without lag, linear: 0.500 mdeg at 24"),
-                    HasSubstr("boresight evaluate")));
+  EXPECT_THAT(
+      line_of(report, "Flywheels"),
+      AllOf(StartsWith("change; PI-0, linear: 0.500 mdeg at 24"), HasSubstr("boresight evaluate")));
   report.matching = flywheels({{0.4, 0.5}, {0.47, 0.471}});
   EXPECT_THAT(line_of(report, "Flywheels"),
               AllOf(StartsWith("keep until friction is known"),

@@ -66,7 +66,7 @@ TEST(Confidence, IsLowWhereTheVerdictMayBeWrong) {
   is_low([](Evidence& e) { e.verdict_depends_on_interpretation = true; },
          Doubt::interpretation_decides);
   is_low([](Evidence& e) { e.plant = PlantBasis::failed_fit; }, Doubt::fit_failed);
-  is_low([](Evidence& e) { e.stable_on_members = false; }, Doubt::not_robust);
+  is_low([](Evidence& e) { e.constraints_met_on_members = false; }, Doubt::not_robust);
 }
 
 TEST(Confidence, ListsEveryDoubt) {

@@ -161,12 +161,13 @@ Subcommand add_tune(CLI::App& program) {
   CLI::App* sub = program.add_subcommand(
       "tune", "tune loop structures for the least boresight rms in wind, robustly and verified");
   add_case(*sub, arguments->case_path);
-  sub->add_option("--structure", arguments->structures,
-                  "loop structures to tune, one or several: PI-0 (PI without lag), PI (PI with "
-                  "lag), DPF (PI with lag and pressure feedback), LL (PI with lead and lag), FULL "
-                  "(PI with lead, lag and pressure feedback), with suffix +N (notch) or +C "
-                  "(compliance compensation), or a [[loop]] of the case; see "
-                  "docs/control-structures.md")
+  sub->add_option(
+         "--structure", arguments->structures,
+         "loop structures to tune, one or several: PI-0 (PI without lag), PI (PI with "
+         "lag), DPF (PI with lag and pressure feedback), LL (PI with lead and lag), FULL "
+         "(PI with lead, lag and pressure feedback), with suffixes +L (position lag instead "
+         "of the integrals), +N (notch) and +C (compliance compensation), or a [[loop]] "
+         "of the case; see docs/control-structures.md")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
                   "KEY=VALUE of [goals] instead of the case's, one or several")

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -120,6 +121,12 @@ Document comparison_part(const CommissionReport& report) {
                     "  ");
 }
 
+bool has_position_integral(const control::LoopStructure& structure) {
+  return std::ranges::any_of(structure.blocks(), [](const control::LoopBlock& block) {
+    return block.path == control::LoopPath::position && block.kind == control::BlockKind::integral;
+  });
+}
+
 Document plan_part(const CommissionReport& report) {
   Document text;
   text += wrapped(fmt::format("Final gains: {}. Ensemble: {} plants, {}; wind {:g} m/s, {} model. "
@@ -129,16 +136,20 @@ Document plan_part(const CommissionReport& report) {
                               report.wind_model, 100.0 * report.options.confidence),
                   "  ");
   if (report.plan.detuning) {
+    const bool integral =
+        has_position_integral(report.plan.stages.back().controller.controller.structure);
     const bool known = report.plan.stages.front().kind == design::StageKind::as_found;
     text += essential(wrapped(
         fmt::format(
             "{} The plan begins with the final gains, without pressure feedback and compliance "
-            "compensation. The {}position gain and position integral corner are divided by {:g}, "
-            "the least power of two that keeps Ms below {:g} on every plant.",
+            "compensation. The {}position gain{} {} divided by {:g}, the least power of two that "
+            "keeps Ms below {:g} on every plant.",
             known ? "ASSUMED start: no path was found from the gains as found ([gains], stage 1) "
                     "to this controller."
                   : "ASSUMED start: the case gives no gains as found ([gains]).",
-            report.plan.rate_detuned ? "rate gain, " : "", *report.plan.detuning,
+            report.plan.rate_detuned ? integral ? "rate gain, " : "rate gain and " : "",
+            integral ? " and position integral corner" : "",
+            integral || report.plan.rate_detuned ? "are" : "is", *report.plan.detuning,
             report.options.sensitivity_limit),
         "  "));
   }

@@ -302,6 +302,11 @@ Document goals_part(const TuneSection& section) {
   if (goals.bandwidth) {
     text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / two_pi);
   }
+  if (goals.standstill) {
+    text += fmt::format(
+        "; Ms at most {:g} at standstill (valve command, viscous friction {:.3g} N.m.s/rad)",
+        goals.standstill->sensitivity_peak, fmt::join(goals.standstill->friction, ", "));
+  }
   if (goals.gust_torque && goals.gust_demand) {
     text += fmt::format("; {:g} times rms in gusts within {:.4g} N.m and {:.4g} rad/s",
                         goals.crest_factor, *goals.gust_torque, *goals.gust_demand);

@@ -36,6 +36,14 @@ void describe_goals(io::Visitor& v, const TuneSection& section) {
            "Largest rms of the noise-driven valve command.", above_zero);
   v.number("bandwidth", goals.bandwidth, unit::hertz_of_radians,
            "Least, of the position loop; null: none asked for.");
+  v.number("sensitivity_peak_standstill",
+           goals.standstill ? std::optional(goals.standstill->sensitivity_peak) : std::nullopt,
+           unit::ratio, "Largest Ms at the valve command near standstill; null: no goal.");
+  v.numbers("standstill_friction",
+            goals.standstill ? goals.standstill->friction : std::vector<double>{},
+            {.suffix = "N_m_s_per_rad"},
+            "Viscous frictions that dry friction amounts to in small motions, for that goal.",
+            above_zero);
   v.number("crest_factor", goals.ask_for_gusts() ? std::optional(goals.crest_factor) : std::nullopt,
            unit::ratio, "Times the rms in gusts; null: saturation is no goal.");
   v.number("gust_demand", goals.gust_demand, unit::radian_per_second,

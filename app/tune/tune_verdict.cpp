@@ -73,6 +73,8 @@ std::string found_and_limit(const NormalisedConstraint& goal, const design::Cons
       return maximum(goals.gust_demand.value_or(0.0), " rad/s");
     case GoalKind::gust_torque:
       return maximum(goals.gust_torque.value_or(0.0), " N.m");
+    case GoalKind::standstill_peak:
+      return maximum(goals.standstill ? goals.standstill->sensitivity_peak : 0.0, "");
   }
   return "";
 }

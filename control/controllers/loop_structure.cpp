@@ -56,6 +56,14 @@ LoopBlock position_integral() {
   return block(LoopPath::position, BlockKind::integral,
                {{"position integral corner", "wip", "rad/s", 1e-4, 3.0}});
 }
+LoopBlock position_lag() {
+  return block(LoopPath::position, BlockKind::lag,
+               {{"position lag corner", "wpp", "rad/s", 0.03, 30.0}});
+}
+LoopBlock position_lead() {
+  return block(LoopPath::position, BlockKind::lead,
+               {{"position lead corner", "wzp", "rad/s", 0.3, 300.0}});
+}
 LoopBlock compliance_gain() {
   return block(LoopPath::compliance, BlockKind::gain,
                {{"compliance", "cs", "rad/(N.m)", 1e-4, 0.1}});
@@ -210,6 +218,22 @@ LoopStructure LoopStructure::with_compliance_compensation() const {
   return {name() + ", compliance compensation", std::move(blocks)};
 }
 
+LoopStructure LoopStructure::with_position_lag() const {
+  if (!name().starts_with("PI")) {
+    throw InvalidInput(fmt::format(
+        "loop structure '{}': expected one of the usual with integrals for a position lag",
+        name()));
+  }
+  std::vector<LoopBlock> blocks = this->blocks();
+  std::erase_if(blocks,
+                [](const LoopBlock& candidate) { return candidate.kind == BlockKind::integral; });
+  const auto gain = std::ranges::find_if(blocks, [](const LoopBlock& candidate) {
+    return candidate.path == LoopPath::position && candidate.kind == BlockKind::gain;
+  });
+  blocks.insert(std::next(gain), {position_lag(), position_lead()});
+  return {fmt::format("P{}, position lag", name().substr(2)), std::move(blocks)};
+}
+
 LoopStructure LoopStructure::with_notch() const {
   std::vector<LoopBlock> blocks = this->blocks();
   blocks.push_back(rate_notch());
@@ -222,6 +246,8 @@ LoopStructure LoopStructure::named(std::string_view short_name) {
   if (compliance) base.remove_suffix(2);
   const bool notch = base.ends_with("+N");
   if (notch) base.remove_suffix(2);
+  const bool lag = base.ends_with("+L");
+  if (lag) base.remove_suffix(2);
   const std::array<std::pair<std::string_view, const LoopStructure*>, 5> list{
       {{"PI-0", &pi()},
        {"PI", &pi_with_lag()},
@@ -232,11 +258,13 @@ LoopStructure LoopStructure::named(std::string_view short_name) {
       std::ranges::find_if(list, [&](const auto& one) { return one.first == base; });
   if (found == list.end()) {
     throw InvalidInput(
-        fmt::format("loop structure: expected PI-0, PI, DPF, LL or FULL, with +N (notch) and +C "
-                    "(compliance compensation) behind it as wanted, found '{}'",
+        fmt::format("loop structure: expected PI-0, PI, DPF, LL or FULL, with +L (position lag "
+                    "instead of integrals), +N (notch) and +C (compliance compensation) behind it "
+                    "as wanted, found '{}'",
                     short_name));
   }
   LoopStructure structure = *found->second;
+  if (lag) structure = structure.with_position_lag();
   if (notch) structure = structure.with_notch();
   return compliance ? structure.with_compliance_compensation() : structure;
 }

@@ -72,10 +72,15 @@ class LoopStructure {
   static const LoopStructure& full();               // lead and pressure feedback
   /// Adds compliance compensation. @throws InvalidInput if the structure has it already.
   LoopStructure with_compliance_compensation() const;
+  /// Replaces the integrals of rate and position loop by a lag compensator in the position loop,
+  /// P = kp (1 + s/wzp)/(1 + s/wpp), a leaky integral. Without integrals no torque builds up while
+  /// friction holds the motor. Apply it before the other additions. @throws InvalidInput if the
+  /// structure is not one of the usual PI structures.
+  LoopStructure with_position_lag() const;
   /// Adds a notch in the rate loop.
   LoopStructure with_notch() const;
-  /// The structure with a short name: PI-0, PI, DPF, LL, FULL, each also with +N (notch) and +C
-  /// (compliance compensation).
+  /// The structure with a short name: PI-0, PI, DPF, LL, FULL, each also with +L (position lag), +N
+  /// (notch) and +C (compliance compensation), in this order.
   /// @throws InvalidInput, with a list of the names, for any other name.
   static LoopStructure named(std::string_view short_name);
   /// Rescales the bounds from the default load, that of the 70-m antenna DSS-14, to another load.

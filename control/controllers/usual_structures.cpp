@@ -6,7 +6,8 @@ const std::vector<std::string>& usual_structures() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
-      for (const auto* added : {"", "+N", "+C", "+N+C"}) all.push_back(std::string(base) + added);
+      for (const auto* added : {"", "+N", "+C", "+N+C", "+L", "+L+N", "+L+C", "+L+N+C"})
+        all.push_back(std::string(base) + added);
     }
     return all;
   }();

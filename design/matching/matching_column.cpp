@@ -41,6 +41,13 @@ MatchingColumn::MatchingColumn(const MatchingTask& task, const MatchingOptions& 
     problem.plant.drive.motor_inertia *= factor;
     plants_.emplace_back(member.name, problem, task.goals, wind, quadrature_tolerance);
   }
+  problem.plant = task.problem.plant;
+  problem.plant.drive.motor_inertia = task.motor_inertia[number];
+  const std::vector<double> none;
+  for (const double friction : task.goals.standstill ? task.goals.standstill->friction : none) {
+    plants_.push_back(
+        PlantEvaluator::at_standstill(problem, friction, task.goals, wind, quadrature_tolerance));
+  }
   cells_.resize(task.structures.size());
   for (auto& cell : cells_) cell.tried.assign(3 + task.structures.size(), 0);
 }
@@ -57,7 +64,7 @@ void MatchingColumn::start(std::size_t structure, int starts) {
   std::mt19937_64 generator(
       numerics::splitmix64(seed_, number_ * task_.structures.size() + structure));
   random_starts(structure, {0}, starts - starts / 2, generator);
-  if (!task_.members.empty() && starts > 1) {
+  if (plants_.size() > 1 && starts > 1) {
     random_starts(structure, cell.active, starts / 2, generator);
   } else if (starts > 1) {
     random_starts(structure, {0}, starts / 2, generator);

@@ -63,6 +63,15 @@ void validate(const Constraints& goals) {
   for (const double peak : goals.sensitivity_peak) {
     expect(peak > 1.0 && std::isfinite(peak), "a sensitivity peak", "above 1 and finite", peak);
   }
+  if (goals.standstill) {
+    const double peak = goals.standstill->sensitivity_peak;
+    expect(peak > 1.0 && std::isfinite(peak), "a sensitivity peak at standstill",
+           "above 1 and finite", peak);
+    for (const double slope : goals.standstill->friction) {
+      expect(slope > 0.0 && std::isfinite(slope), "a friction at standstill", "above 0 and finite",
+             slope);
+    }
+  }
   for (const auto& margin : goals.gain_margin) {
     if (margin) {
       expect(*margin > 1.0 && std::isfinite(*margin), "a gain margin", "above 1 and finite",
@@ -88,9 +97,14 @@ std::string_view to_string(ObjectiveKind kind) {
 }
 
 std::string_view to_string(GoalKind kind) {
-  static constexpr std::array names{
-      "sensitivity peak", "noise-driven control effort", "gain margin",          "phase margin",
-      "bandwidth",        "valve demand in gusts",       "motor torque in gusts"};
+  static constexpr std::array<std::string_view, goal_kinds> names{"sensitivity peak",
+                                                                  "noise-driven control effort",
+                                                                  "gain margin",
+                                                                  "phase margin",
+                                                                  "bandwidth",
+                                                                  "valve demand in gusts",
+                                                                  "motor torque in gusts",
+                                                                  "sensitivity peak at standstill"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
@@ -123,6 +137,16 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
     ratios.push_back(of_variance(GoalKind::gust_torque, evaluation.wind_torque_variance,
                                  evaluation.wind_torque_log_gradient, goals.crest_factor,
                                  mean.torque, *goals.gust_torque));
+  }
+}
+
+void append_standstill_peaks(const control::LoopEvaluation& evaluation,
+                             const Standstill& standstill,
+                             std::vector<NormalisedConstraint>& ratios) {
+  constexpr LoopBreak cut = LoopBreak::valve_command;
+  for (const auto& peak : evaluation.peaks[static_cast<std::size_t>(cut)]) {
+    ratios.push_back({GoalKind::standstill_peak, cut, peak.frequency,
+                      peak.magnitude / standstill.sensitivity_peak, peak.log_gradient});
   }
 }
 

@@ -10,6 +10,14 @@
 
 namespace boresight::design {
 
+/// Robustness against limit cycles at rest. In small motions dry friction acts like a large viscous
+/// friction (plant::equivalent_friction). With each of these slopes instead of the plant's viscous
+/// friction, the problem's own plant must be stable and |S| at the valve command within the limit.
+struct Standstill {
+  double sensitivity_peak = 3.0;
+  std::vector<double> friction = {};  // N m s/rad; see standstill_friction
+};
+
 /// The constraints of a design. Those per break are in the order of control::loop_breaks.
 struct Constraints {
   /// Largest |S| allowed (Ms).
@@ -26,13 +34,15 @@ struct Constraints {
   std::optional<double> gust_demand = std::nullopt;
   std::optional<double> gust_torque = std::nullopt;
   double crest_factor = 3.5;
+  std::optional<Standstill> standstill = std::nullopt;
 
   bool ask_for_gusts() const { return gust_demand.has_value() || gust_torque.has_value(); }
   bool ask_for_margins() const;
 };
 
 /// @throws InvalidInput for a limit that no loop or every loop meets: Ms not above 1, a gain margin
-/// not above 1, a phase margin outside (0, pi), any other limit not positive and finite.
+/// not above 1, a phase margin outside (0, pi), any other limit or a friction at standstill not
+/// positive and finite.
 void validate(const Constraints& goals);
 
 /// The objective of a tuning: a boresight rms computed from the rms on each plant.
@@ -57,7 +67,9 @@ enum class GoalKind {
   bandwidth,
   gust_demand,
   gust_torque,
+  standstill_peak,
 };
+inline constexpr std::size_t goal_kinds = 8;
 std::string_view to_string(GoalKind kind);
 
 /// One normalised constraint (value/limit) of one loop.
@@ -84,6 +96,10 @@ struct MeanWindLoad {
 void append_normalised_constraints(const control::LoopEvaluation& evaluation,
                                    const Constraints& goals, const MeanWindLoad& mean,
                                    std::vector<NormalisedConstraint>& ratios);
+/// Appends the constraint of Constraints::standstill, from one evaluation with its friction.
+void append_standstill_peaks(const control::LoopEvaluation& evaluation,
+                             const Standstill& standstill,
+                             std::vector<NormalisedConstraint>& ratios);
 /// Appends the constraints on margins and bandwidth, where specified, from the loop gain. A
 /// bandwidth below the grid counts as the grid's first frequency.
 void append_margin_ratios(const control::LoopChannels& channels, double delay,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/design/problem/mission.hpp>
+#include <boresight/design/problem/standstill.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
@@ -30,6 +31,7 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
 
 Constraints constraints(const Mission& mission) {
   Constraints goals = mission.stated_constraints;
+  if (goals.standstill) goals.standstill->friction = standstill_friction(mission.antenna);
   if (!mission.limits_gusts) return goals;
   goals.gust_torque = plant::available_wind_torque(mission.antenna);
   if (!(*goals.gust_torque > 0.0)) {

@@ -75,7 +75,8 @@ struct Mission {
   std::vector<PointingBand> bands;
   std::vector<PointingBudget> budgets;
   control::FrequencyBand rms_band{1e-4, 25.0};  // Hz
-  /// Constraints without limits in gusts, which depend on the antenna: see constraints().
+  /// Constraints without limits in gusts and the friction at standstill, which depend on the
+  /// antenna: see constraints().
   Constraints stated_constraints;
   bool limits_gusts = false;
   Objective objective;
@@ -102,7 +103,8 @@ TrackingProblem tracking_problem(const Mission& mission,
 TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& antenna);
 
 /// The constraints of a mission. Gusts, where limited, are limited to valve demands within the
-/// stroke (plant::largest_demand) and to torques within plant::available_wind_torque.
+/// stroke (plant::largest_demand) and to torques within plant::available_wind_torque. Those at
+/// standstill, where given, have standstill_friction.
 /// @throws InvalidInput where friction and offset leave no torque.
 Constraints constraints(const Mission& mission);
 

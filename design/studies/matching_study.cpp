@@ -129,7 +129,6 @@ void look_at_position_loop(const TrackingProblem& problem, const control::Contro
                               control::LoopBreak::position_loop);
   };
   const auto band = analysis_band(problem);
-  // At the lowest frequency the loop is that of a double integrator.
   const double lowest = two_pi * band.lowest;
   value.acceleration_error = 1.0 / (lowest * lowest * std::abs(loop(lowest)));
   constexpr double step = 1.02;

@@ -68,8 +68,9 @@ struct MatchValue {
   double gust_torque = 0.0;  // N m
   std::array<control::Margins, 3> margins;
   double bandwidth = 0.0;  // Hz: the lowest at which the position loop's |S| reaches 1/sqrt(2)
-  /// rad per rad/s2: steady-state error under a constant acceleration without feedforward, 1/(w^2
-  /// L) of the position loop as w goes to 0.
+  /// rad per rad/s2: error under a constant acceleration without feedforward, 1/(w^2 L) of the
+  /// position loop at the lowest frequency of the analysis. The error of a loop without position
+  /// integral grows as long as the acceleration lasts: 1/w of that frequency is its duration.
   double acceleration_error = 0.0;
   Verification verification;
   std::optional<MatchTimeDomain> time_domain;

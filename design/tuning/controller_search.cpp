@@ -34,6 +34,7 @@ class Rows {
     }
     if (goals.gust_demand) take(GoalKind::gust_demand, 1);
     if (goals.gust_torque) take(GoalKind::gust_torque, 1);
+    if (goals.standstill) take(GoalKind::standstill_peak, most_of_a_kind);
   }
 
   std::size_t count() const { return count_; }
@@ -41,6 +42,7 @@ class Rows {
   // Row of each ratio in turn: ratios come by kind and break, in order of rank.
   std::size_t row(const NormalisedConstraint& goal, std::size_t rank) const {
     std::size_t place = first_.at(static_cast<std::size_t>(goal.kind));
+    if (goal.kind == GoalKind::standstill_peak) return place + rank;
     if (goal.kind != GoalKind::bandwidth && goal.loop_break) {
       place += static_cast<std::size_t>(*goal.loop_break) * most_of_a_kind + rank;
     }
@@ -52,7 +54,7 @@ class Rows {
     first_.at(static_cast<std::size_t>(kind)) = count_;
     count_ += rows;
   }
-  std::array<std::size_t, 7> first_{};
+  std::array<std::size_t, goal_kinds> first_{};
   std::size_t count_ = 0;
 };
 

@@ -31,12 +31,12 @@ EnsembleSearch::EnsembleSearch(std::vector<PlantEvaluator>& plants,
                                control::LoopStructure structure, const Constraints& goals,
                                const TuningOptions& options)
     : plants_(plants), structure_(std::move(structure)), goals_(goals), options_(options) {
-  if (plants.size() == 1 || options.objective.kind == ObjectiveKind::nominal) {
-    ensemble_ = {0};
-  } else {
-    ensemble_.resize(plants.size() - 1);
-    std::iota(ensemble_.begin(), ensemble_.end(), std::size_t{1});
+  if (options.objective.kind != ObjectiveKind::nominal) {
+    for (std::size_t i = 1; i < plants.size(); ++i) {
+      if (!plants[i].is_at_standstill()) ensemble_.push_back(i);
+    }
   }
+  if (ensemble_.empty()) ensemble_ = {0};
 }
 
 std::size_t EnsembleSearch::quantile_place() const {
@@ -134,7 +134,7 @@ bool EnsembleSearch::carry_more(bool feasible) {
     std::size_t plant = 0;
     double ratio = 0.0;
   };
-  std::array<std::array<Worst, control::loop_breaks.size() + 1>, 7> worst{};
+  std::array<std::array<Worst, control::loop_breaks.size() + 1>, goal_kinds> worst{};
   for (std::size_t i = 0; i < plants_.size(); ++i) {
     for (const NormalisedConstraint& goal : member_states_[i].ratios) {
       const std::size_t cut = goal.loop_break ? 1 + static_cast<std::size_t>(*goal.loop_break) : 0;

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
 
@@ -39,6 +41,21 @@ PlantEvaluator::PlantEvaluator(std::string name, const TrackingProblem& problem,
   }
 }
 
+PlantEvaluator PlantEvaluator::at_standstill(TrackingProblem problem, double friction,
+                                             const Constraints& goals, const WindTable& wind,
+                                             double tolerance) {
+  problem.plant.drive.viscous_friction = friction;
+  Constraints own;
+  own.standstill = goals.standstill.value();
+  PlantEvaluator plant(fmt::format("friction {:.3g} N.m.s/rad", friction), problem, own, wind,
+                       tolerance);
+  plant.at_standstill_ = true;
+  std::array<bool, control::loop_breaks.size()> breaks{};
+  breaks[static_cast<std::size_t>(control::LoopBreak::valve_command)] = true;
+  plant.evaluator_.look_at(breaks);
+  return plant;
+}
+
 const PlantEvaluation& PlantEvaluator::evaluate(const control::Controller& controller,
                                                 bool with_gradients) {
   plant_evaluation_.evaluation = evaluator_.evaluate(controller, with_gradients);
@@ -46,6 +63,10 @@ const PlantEvaluation& PlantEvaluator::evaluate(const control::Controller& contr
   plant_evaluation_.ratios.clear();
   if (!plant_evaluation_.stable) return plant_evaluation_;
   auto& evaluation = plant_evaluation_.evaluation;
+  if (at_standstill_) {
+    append_standstill_peaks(evaluation, *goals_.standstill, plant_evaluation_.ratios);
+    return plant_evaluation_;
+  }
   if (!gusts_.empty()) {
     const auto gusts = gusts_.front().evaluate(controller, with_gradients);
     evaluation.wind_demand_variance = gusts.wind_demand_variance;

@@ -28,6 +28,11 @@ class PlantEvaluator {
   /// make_adaptive_evaluator.
   PlantEvaluator(std::string name, const TrackingProblem& problem, const Constraints& goals,
                  const WindTable& wind, double tolerance = control::LoopQuadrature{}.tolerance);
+  /// For the problem's own plant with one friction of Constraints::standstill, which must be given.
+  /// Its only constraint is that of standstill.
+  static PlantEvaluator at_standstill(TrackingProblem problem, double friction,
+                                      const Constraints& goals, const WindTable& wind,
+                                      double tolerance = control::LoopQuadrature{}.tolerance);
 
   /// Evaluates one controller. The reference is valid until the next call. @throws InvalidInput as
   /// control::validate.
@@ -37,6 +42,8 @@ class PlantEvaluator {
   bool stable_by_eigenvalues(const control::Controller& controller) const;
 
   const std::string& name() const { return name_; }
+  /// True for an evaluator by at_standstill(), whose rms means nothing.
+  bool is_at_standstill() const { return at_standstill_; }
   const plant::AntennaPlant& plant() const { return plant_; }
 
  private:
@@ -44,6 +51,7 @@ class PlantEvaluator {
   plant::AntennaPlant plant_;
   double delay_;
   Constraints goals_;
+  bool at_standstill_ = false;
   MeanWindLoad mean_;
   Eigen::ArrayXd frequency_;  // rad/s, for margins and the eigenvalues' residue
   control::LoopEvaluator evaluator_;

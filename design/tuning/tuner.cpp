@@ -39,12 +39,18 @@ void check(const control::LoopStructure& structure, const Constraints& goals,
 std::vector<PlantEvaluator> make_plants(TrackingProblem problem, const Constraints& goals,
                                         const std::vector<EnsembleMember>& members) {
   const WindTable wind(problem);
+  const plant::AntennaPlant own = problem.plant;
+  const std::vector<double> none;
   std::vector<PlantEvaluator> plants;
   plants.reserve(1 + members.size());
   plants.emplace_back("", problem, goals, wind);
   for (const auto& member : members) {
     problem.plant = member.plant;
     plants.emplace_back(member.name, problem, goals, wind);
+  }
+  problem.plant = own;
+  for (const double friction : goals.standstill ? goals.standstill->friction : none) {
+    plants.push_back(PlantEvaluator::at_standstill(problem, friction, goals, wind));
   }
   return plants;
 }
@@ -147,7 +153,7 @@ std::vector<std::vector<double>> global_search(std::vector<PlantEvaluator>& plan
                                                TuningResult& result) {
   Started started = multi_start(plants, {{0}, {0}, false}, structure, goals, options, result);
   auto points = promising(started);
-  if (!options.members.empty() && !points.empty() && !result.interrupted) {
+  if (plants.size() > 1 && !points.empty() && !result.interrupted) {
     EnsembleSearch ensemble(plants, structure, goals, options);
     const auto held = ensemble.hold(points.front(), {0});
     result.evaluations += ensemble.evaluations();

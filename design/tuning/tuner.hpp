@@ -107,6 +107,9 @@ double worst_constraint(const control::LoopEvaluation& evaluation, const Constra
 /// the largest rms are left out, as many as the quantile allows. This choice is updated until it no
 /// longer changes: a local optimum of the quantile.
 ///
+/// With Constraints::standstill the problem's plant with each friction of it is one more plant that
+/// must meet that constraint. It does not count for the objective.
+///
 /// Only controllers whose eigenvalues are stable on every plant are accepted. If no controller
 /// meets every constraint, the result has the smallest worst ratio. `limits` then lists the
 /// mutually incompatible constraints. A plant that no controller of the search stabilises is

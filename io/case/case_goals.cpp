@@ -30,6 +30,8 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
   take("gain_margin", Kind::level, Range::positive(40.0), goals.gain_margin);
   take("phase_margin", Kind::angle, Range::positive(1.5), goals.phase_margin);
   take("bandwidth", Kind::bandwidth_frequency, Range::positive(1e4), goals.bandwidth);
+  take("sensitivity_peak_standstill", Kind::number, Range::between(1.01, 100.0),
+       goals.standstill_peak);
   take("crest_factor", Kind::number, Range::between(1.0, 10.0), goals.crest_factor);
   take("beam_rms", Kind::angle, Range::positive(1.0), goals.boresight_rms);
   if (table.has("soft_goal") || table.optional_text("soft_goal")) {

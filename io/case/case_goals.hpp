@@ -21,9 +21,10 @@ struct GoalsEntry {
   Quantity control_effort;
   Quantity lowest_frequency;
   Quantity highest_frequency;
-  std::optional<Quantity> gain_margin;    // dB, at every break
-  std::optional<Quantity> phase_margin;   // rad, at every break
-  std::optional<Quantity> bandwidth;      // rad/s, of the position loop
+  std::optional<Quantity> gain_margin;   // dB, at every break
+  std::optional<Quantity> phase_margin;  // rad, at every break
+  std::optional<Quantity> bandwidth;     // rad/s, of the position loop
+  std::optional<Quantity> standstill_peak;
   std::optional<Quantity> crest_factor;   // of the torque in gusts, against the supply's
   std::optional<Quantity> boresight_rms;  // rad
   ObjectiveKind objective = ObjectiveKind::nominal;

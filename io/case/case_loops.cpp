@@ -204,10 +204,20 @@ std::optional<RangeEntry> read_range(TableReader& table, const char* key, Kind k
   return entry;
 }
 
-// With every block of the usual ones.
-const control::LoopStructure& all_blocks() {
-  static const control::LoopStructure structure = control::LoopStructure::named("FULL+N+C");
-  return structure;
+// Every block of the usual structures.
+const std::vector<control::LoopBlock>& all_blocks() {
+  static const std::vector<control::LoopBlock> blocks = [] {
+    std::vector<control::LoopBlock> all = control::LoopStructure::named("FULL+N+C").blocks();
+    const auto lag = control::LoopStructure::named("FULL+L");
+    for (const auto& block : lag.blocks()) {
+      const bool known = std::ranges::any_of(all, [&](const control::LoopBlock& one) {
+        return one.gains.front().symbol == block.gains.front().symbol;
+      });
+      if (!known) all.push_back(block);
+    }
+    return all;
+  }();
+  return blocks;
 }
 
 control::LoopStructure bounded(const control::LoopStructure& structure,
@@ -232,11 +242,13 @@ control::LoopStructure bounded(const control::LoopStructure& structure,
 
 GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols) {
   std::vector<std::string> known;
-  for (const auto& gain : all_blocks().gains()) known.push_back(gain.symbol);
+  for (const auto& block : all_blocks()) {
+    for (const auto& gain : block.gains) known.push_back(gain.symbol);
+  }
   GainBoundEntry bound;
   bound.symbol = table.choice("gain", known);
   Kind kind = Kind::number;
-  for (const auto& block : all_blocks().blocks()) {
+  for (const auto& block : all_blocks()) {
     for (std::size_t i = 0; i < block.gains.size(); ++i) {
       if (block.gains[i].symbol == bound.symbol) kind = gain_kind(block.path, block.kind, i);
     }
@@ -291,8 +303,9 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
                                       control::usual_structures().end());
   for (const auto& entry : antenna.loops) known.push_back(entry.structure.name());
   throw InvalidInput(
-      fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +N (notch) and +C (compliance "
-                  "compensation) behind it as wanted, found {}{}",
+      fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +L (position lag instead of "
+                  "integrals), +N (notch) and +C (compliance compensation) behind it as wanted, "
+                  "found {}{}",
                   names.empty() ? "" : fmt::format("{}, ", fmt::join(names, ", ")), in_quotes(name),
                   did_you_mean(name, known)));
 }

@@ -68,6 +68,8 @@ design::Constraints stated_constraints_of(const GoalsEntry& entry) {
   if (entry.gain_margin) goals.gain_margin.fill(std::pow(10.0, entry.gain_margin->value / 20.0));
   if (entry.phase_margin) goals.phase_margin.fill(entry.phase_margin->value);
   if (entry.bandwidth) goals.bandwidth = entry.bandwidth->value;
+  goals.standstill.emplace();
+  if (entry.standstill_peak) goals.standstill->sensitivity_peak = entry.standstill_peak->value;
   if (entry.crest_factor) goals.crest_factor = entry.crest_factor->value;
   return goals;
 }
@@ -159,7 +161,7 @@ double torque_limited_wind_speed(const Case& antenna, const design::TrackingProb
 
 design::Constraints make_goals(const Case& antenna) {
   design::Mission mission = asked_of(antenna);
-  mission.antenna = drive_of(antenna);
+  mission.antenna = antenna_of(antenna);
   return constraints(mission);
 }
 
@@ -217,7 +219,7 @@ std::vector<design::NamedStructure> asked_structures(const Case& stated,
                                                      std::vector<std::string> names) {
   if (names.empty()) names = stated.tuning->structures;
   if (names.empty()) {
-    names = {"PI", "DPF", "LL", "FULL", "PI+C", "DPF+C"};
+    names = {"PI", "LL", "DPF", "FULL", "LL+L", "FULL+L+C"};
     for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
   }
   std::vector<design::NamedStructure> structures;

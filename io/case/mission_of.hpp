@@ -15,7 +15,7 @@ namespace boresight::io {
 design::Mission mission_of(const Case& stated);
 
 /// The loop structures of these names, or without names those that the case's [tuning] asks for,
-/// else PI, DPF, LL, FULL, PI+C, DPF+C and the case's own.
+/// else PI, LL, DPF, FULL, LL+L, FULL+L+C and the case's own.
 /// @throws InvalidInput as loop_structure, and for a name given twice.
 std::vector<design::NamedStructure> asked_structures(const Case& stated,
                                                      std::vector<std::string> names = {});

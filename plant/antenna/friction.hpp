@@ -28,4 +28,14 @@ double friction_slope(const FrictionCurve& curve, double rate);
 /// away.
 numerics::ValueAndDerivative dry_friction(const FrictionCurve& curve, double rate);
 
+/// Describing function of friction_torque for a sinusoidal motion with this amplitude of the rate
+/// (rad/s, above 0): the viscous friction (N m s/rad) that dissipates as much,
+///   b(V) = 2/(pi V) int_0^pi T(V sin a) sin a da,
+/// 4 Tc/(pi V) for Coulomb friction. A sinusoidal friction torque stays in phase with the rate, so
+/// that b is real. Motion within the bristles, before breakaway, is not included.
+/// Source: Gelb and Vander Velde, Multiple-Input Describing Functions and Nonlinear System Design
+/// (1968), chapter 2.
+/// @throws InvalidInput for an amplitude that is not positive and finite.
+double equivalent_friction(const FrictionCurve& curve, double rate_amplitude);
+
 }  // namespace boresight::plant

@@ -67,8 +67,8 @@ def test_tuning_says_what_the_program_says(tuning, program):
     assert tuning.to_dict()["tuned"] == report["tuned"]
     nominal, robust = [law for law in tuning.controllers if law.tuned_for != "present"]
     assert (nominal.tuned_for, robust.tuned_for) == ("nominal", "robust")
-    assert nominal.boresight_rms / boresight.mdeg == pytest.approx(0.5099, abs=1e-4)
-    assert robust.boresight_rms / boresight.mdeg == pytest.approx(0.6401, abs=1e-4)
+    assert nominal.boresight_rms / boresight.mdeg == pytest.approx(0.5395, abs=1e-4)
+    assert robust.boresight_rms / boresight.mdeg == pytest.approx(0.6683, abs=1e-4)
     assert robust.worst_boresight_rms > robust.boresight_rms
     assert nominal.boresight_rms == pytest.approx(math.hypot(nominal.wind_rms, nominal.noise_rms))
 

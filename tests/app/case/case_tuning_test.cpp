@@ -245,8 +245,8 @@ TEST(CaseTuning, RefusesStructuresThatAreNone) {
                 "path, found 0"));
   EXPECT_THAT(refusal("[\"PI\", ", "[\"PID\", "),
               HasSubstr("tuning.structures: expected 'PI with a second lag', PI-0, PI, DPF, LL or "
-                        "FULL, with +N (notch) and +C (compliance compensation) behind it as "
-                        "wanted, found 'PID'"));
+                        "FULL, with +L (position lag instead of integrals), +N (notch) and +C "
+                        "(compliance compensation) behind it as wanted, found 'PID'"));
   EXPECT_THAT(refusal("kT = \"0.0002 rad/(s.N.m)\"", "kT = \"0.0002 rad/s\""),
               HasSubstr("gains.kT: expected a rate per torque"));
   EXPECT_THAT(refusal("wcs = \"1 rad/s\"\n", ""), HasSubstr("gains.wcs: expected"));

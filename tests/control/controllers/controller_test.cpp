@@ -16,7 +16,11 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Complex = std::complex<double>;
 
-const std::vector<LoopStructure> structures = reference::loop_structures();
+const std::vector<LoopStructure> structures = [] {
+  auto all = reference::loop_structures();
+  all.push_back(LoopStructure::named("FULL+L+C"));
+  return all;
+}();
 
 TEST(CompensatorResponse, IsTheFormulaOfTheStructure) {
   const double kr = 0.7, wi = 0.9, wp = 5.0, kp = 0.4, wip = 0.07;
@@ -118,6 +122,23 @@ TEST(GainDescriptions, CoverTheBoundsOfTheStructures) {
     }
   }
   EXPECT_NE(to_string(LoopStructure::pi()), to_string(LoopStructure::pi_with_lag()));
+}
+
+TEST(LoopStructure, PositionLagReplacesTheIntegrals) {
+  const auto lag = LoopStructure::named("FULL+L+N+C");
+  EXPECT_EQ(lag.name(),
+            "P with lead, lag and pressure feedback, position lag, notch, compliance compensation");
+  for (const auto& block : lag.blocks()) EXPECT_NE(block.kind, BlockKind::integral);
+  const double kr = 0.7, kp = 0.4, wpp = 0.2, wzp = 3.0;
+  const Controller controller{LoopStructure::named("PI-0+L"), {kr, kp, wpp, wzp}};
+  for (const double w : {1e-4, 0.1, 2.0, 150.0}) {
+    const Complex s{0.0, w};
+    const auto response = compensator_response(controller, w);
+    EXPECT_LT(relative_error(response.rate, kr), 1e-14);
+    EXPECT_LT(relative_error(response.position, kp * (1.0 + s / wzp) / (1.0 + s / wpp)), 1e-14);
+  }
+  EXPECT_THROW(lag.with_position_lag(), InvalidInput);
+  EXPECT_THROW(LoopStructure::named("PI+N+L"), InvalidInput);
 }
 
 TEST(LoopStructure, MovesItsBoundsByTheDecadesOfTheLoad) {

@@ -1,8 +1,10 @@
 #include <cmath>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::plant {
@@ -35,6 +37,43 @@ TEST(FrictionTorque, WithoutBumpAndSaturatingPartIsCoulombAndViscous) {
   line.viscous_friction = 2.0;
   EXPECT_DOUBLE_EQ(friction_torque(line, 3.0), 11.0);
   EXPECT_DOUBLE_EQ(friction_slope(line, 3.0), 2.0);
+}
+
+TEST(EquivalentFriction, IsFourOverPiOfCoulombFriction) {
+  FrictionCurve coulomb;
+  coulomb.coulomb_torque = coulomb.breakaway_torque = 5.0;
+  for (const double rate : {1e-6, 0.03, 2.0, 200.0}) {
+    EXPECT_NEAR(equivalent_friction(coulomb, rate) * std::numbers::pi * rate / 20.0, 1.0, 1e-9);
+  }
+}
+
+TEST(EquivalentFriction, AddsTheViscousFriction) {
+  FrictionCurve dry = reference_curve;
+  dry.viscous_friction = 0.0;
+  for (const double rate : {0.01, 0.3, 4.0}) {
+    EXPECT_NEAR(equivalent_friction(reference_curve, rate) - equivalent_friction(dry, rate), 2.075,
+                1e-7 * equivalent_friction(dry, rate));
+  }
+}
+
+TEST(EquivalentFriction, DissipatesAsMuchInAPeriod) {
+  // Midpoint rule over a period, 1e5 points: work of T against that of b w.
+  constexpr int points = 100000;
+  for (const double rate : {0.05, 0.15, 1.0, 20.0}) {
+    double work = 0.0, square = 0.0;
+    for (int i = 0; i < points; ++i) {
+      const double w = rate * std::sin(2.0 * std::numbers::pi * (i + 0.5) / points);
+      work += friction_torque(reference_curve, w) * w;
+      square += w * w;
+    }
+    EXPECT_NEAR(equivalent_friction(reference_curve, rate) * square / work, 1.0, 1e-6) << rate;
+  }
+}
+
+TEST(EquivalentFriction, RefusesAnAmplitudeThatIsNotPositive) {
+  for (const double rate : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
+    EXPECT_THROW(equivalent_friction(reference_curve, rate), InvalidInput);
+  }
 }
 
 TEST(FrictionSlope, IsTheDerivativeOfTheTorque) {

@@ -1,0 +1,59 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "design/studies/demo_mission.hpp"
+#include <boresight/design/problem/standstill.hpp>
+#include <boresight/numerics/angles.hpp>
+#include <boresight/plant/antenna/antenna_plant.hpp>
+
+namespace boresight::design {
+namespace {
+
+plant::Antenna antenna_with_encoder_noise(double factor) {
+  plant::Antenna antenna = plant::demo_antenna();
+  antenna.sensors.encoder_noise *= factor;
+  return antenna;
+}
+
+TEST(StandstillFriction, IsThatOfHalfAnEncoderStep) {
+  const plant::Antenna antenna = plant::demo_antenna();
+  const auto slopes = standstill_friction(antenna);
+  ASSERT_EQ(slopes.size(), 3U);
+  const auto mode = plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna)));
+  // A uniform error of +-h/2 has an rms of h/sqrt(12).
+  const double half_step = std::sqrt(3.0) * gear_ratio(antenna) * antenna.sensors.encoder_noise;
+  const double rate = half_step * two_pi * mode.frequency / 6.0;
+  EXPECT_NEAR(slopes[2], plant::equivalent_friction(antenna.friction_curve, rate),
+              1e-12 * slopes[2]);
+  EXPECT_NEAR(slopes[1], slopes[2] / 3.0, 1e-12 * slopes[2]);
+  EXPECT_NEAR(slopes[0], slopes[2] / 6.0, 1e-12 * slopes[2]);
+}
+
+TEST(StandstillFriction, FallsWithTheEncoderStep) {
+  // A coarser encoder hides limit cycles of larger amplitude, in which friction damps less.
+  const double own = standstill_friction(antenna_with_encoder_noise(1.0)).back();
+  EXPECT_LT(standstill_friction(antenna_with_encoder_noise(4.0)).back(), own);
+  EXPECT_GT(standstill_friction(antenna_with_encoder_noise(0.25)).back(), own);
+}
+
+TEST(StandstillFriction, IsAbsentWithoutEncoderStepsOrDryFriction) {
+  EXPECT_TRUE(standstill_friction(antenna_with_encoder_noise(0.0)).empty());
+  plant::Antenna antenna = plant::demo_antenna();
+  antenna.friction_curve = {};
+  antenna.friction_curve.viscous_friction = antenna.drive.viscous_friction;
+  EXPECT_TRUE(standstill_friction(antenna).empty());
+}
+
+TEST(StandstillFriction, GoesIntoTheConstraintsOfAMissionThatAsks) {
+  Mission mission = reference::demo_mission();
+  EXPECT_FALSE(constraints(mission).standstill.has_value());
+  mission.stated_constraints.standstill = Standstill{2.5, {}};
+  const auto goals = constraints(mission);
+  ASSERT_TRUE(goals.standstill.has_value());
+  EXPECT_EQ(goals.standstill->sensitivity_peak, 2.5);
+  EXPECT_EQ(goals.standstill->friction, standstill_friction(mission.antenna));
+}
+
+}  // namespace
+}  // namespace boresight::design

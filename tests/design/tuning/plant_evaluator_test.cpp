@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include "refused_call.hpp"
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/control/loops/sensitivity_bounds.hpp>
+#include <boresight/design/tuning/design_study.hpp>
+#include <boresight/design/tuning/plant_evaluator.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+using control::Controller;
+using control::LoopBreak;
+using control::LoopStructure;
+
+constexpr double friction = 300.0;
+constexpr auto valve = static_cast<std::size_t>(LoopBreak::valve_command);
+
+Constraints standing() {
+  Constraints goals;
+  goals.standstill = Standstill{3.0, {50.0, 100.0, friction}};
+  return goals;
+}
+
+plant::AntennaPlant at_standstill(const TrackingProblem& problem, double slope) {
+  plant::AntennaPlant plant = problem.plant;
+  plant.drive.viscous_friction = slope;
+  return plant;
+}
+
+TEST(PlantEvaluator, HasThePeakAtStandstillOfAnIndependentBound) {
+  const TrackingProblem problem = reference::tracking_problem();
+  const Controller controller = reference::cautious_gains();
+  const WindTable wind(problem);
+  auto plant = PlantEvaluator::at_standstill(problem, friction, standing(), wind);
+  EXPECT_TRUE(plant.is_at_standstill());
+  const PlantEvaluation& found = plant.evaluate(controller, false);
+  ASSERT_TRUE(found.stable);
+  ASSERT_FALSE(found.ratios.empty());
+  for (const auto& goal : found.ratios) EXPECT_EQ(goal.kind, GoalKind::standstill_peak);
+  const auto peaks =
+      control::sensitivity_bounds(at_standstill(problem, friction), controller, problem.delay);
+  EXPECT_NEAR(3.0 * found.worst_ratio(), peaks[valve].upper, 1e-5 * peaks[valve].upper);
+}
+
+TEST(PlantEvaluator, HasTheGradientOfThePeakAtStandstill) {
+  const TrackingProblem problem = reference::tracking_problem();
+  Controller controller = reference::cautious_gains();
+  const WindTable wind(problem);
+  auto plant = PlantEvaluator::at_standstill(problem, friction, standing(), wind);
+  const auto gradient = plant.evaluate(controller, true).ratios.front().log_gradient;
+  for (std::size_t k = 0; k < controller.gains.size(); ++k) {
+    const double gain = controller.gains[k], step = 1e-4;
+    const auto peak = [&](double factor) {
+      controller.gains[k] = gain * factor;
+      const double value = std::log(plant.evaluate(controller, false).ratios.front().ratio);
+      controller.gains[k] = gain;
+      return value;
+    };
+    EXPECT_NEAR(gradient[k], (peak(1.0 + step) - peak(1.0 - step)) / (2.0 * step), 1e-3) << k;
+  }
+}
+
+// Without the constraint the integrals of the optimum are unstable at standstill.
+TEST(Standstill, IsMetByWhatIsTunedForIt) {
+  const TrackingProblem problem = reference::tracking_problem();
+  TuningOptions options;
+  options.starts = 6;
+  const auto structure = LoopStructure::pi_with_lag();
+  const auto free = tune(problem, structure, {}, options);
+  ASSERT_EQ(free.status, TuningStatus::optimal);
+  EXPECT_TRUE(verify(problem, free.controller, {}).passed);
+  EXPECT_FALSE(verify(problem, free.controller, standing()).passed);
+
+  const auto tuned = tune(problem, structure, standing(), options);
+  ASSERT_EQ(tuned.status, TuningStatus::optimal);
+  EXPECT_TRUE(verify(problem, tuned.controller, standing()).passed);
+  const Constraints goals = standing();
+  for (const double slope : goals.standstill->friction) {
+    const auto plant = at_standstill(problem, slope);
+    EXPECT_TRUE(control::stability(plant, tuned.controller, problem.delay, analysis_grid(problem))
+                    .stable());
+    EXPECT_LE(control::sensitivity_bounds(plant, tuned.controller, problem.delay)[valve].upper,
+              3.0 * (1.0 + 1e-5));
+  }
+  // It costs rms, and says so by a shadow price.
+  EXPECT_GT(tuned.soft_rms, free.soft_rms);
+  EXPECT_TRUE(std::ranges::any_of(tuned.limits, [](const ActiveConstraint& limit) {
+    return limit.goal.kind == GoalKind::standstill_peak && limit.shadow_price > 0.0;
+  }));
+}
+
+TEST(Standstill, OfABadLimitIsRefused) {
+  Constraints goals = standing();
+  goals.standstill->sensitivity_peak = 1.0;
+  EXPECT_THROW(validate(goals), InvalidInput);
+  goals = standing();
+  goals.standstill->friction = {0.0};
+  EXPECT_THROW(validate(goals), InvalidInput);
+}
+
+}  // namespace
+}  // namespace boresight::design

@@ -245,6 +245,7 @@ CardLine present_line(const Report& report, const TuningSection& section) {
 struct BudgetDetail {
   std::size_t shown = 3;
   bool named = true;
+  bool with_basis = true;  // "linear"
 };
 
 // Those that matter first: required ones before others, the tightest before wider ones. The
@@ -273,8 +274,9 @@ CardLine budget_line(const Report& report, const TuningSection& section,
     }
     budgets.push_back(std::move(text));
   }
-  // Without room for names the line of the error says it.
-  const char* basis = !detail.named ? "" : simulated(report) ? "; simulated" : "; linear";
+  // Without room for it the line of the error says it.
+  const bool is_said = !detail.with_basis || (simulated(report) && !detail.named);
+  const char* basis = is_said ? "" : simulated(report) ? "; simulated" : "; linear";
   return {"Budgets (mdeg)",
           budgets.empty() ? "the case states none ([[pointing.budget]])"
                           : fmt::format("{}{}", fmt::join(budgets, "; "), basis),
@@ -460,7 +462,8 @@ std::vector<CardLine> redesign_card(const Report& report) {
   if (!report.tuning) return {};
   // On one screen: of a controller of many gains fewer budgets are shown, or one without its name.
   constexpr std::ptrdiff_t most_lines = 16;
-  constexpr std::array<BudgetDetail, 4> details{{{3, true}, {2, true}, {1, true}, {1, false}}};
+  constexpr std::array<BudgetDetail, 5> details{
+      {{3, true}, {2, true}, {1, true}, {1, false}, {1, false, false}}};
   std::vector<CardLine> card;
   for (const auto& budgets : details) {
     card = card_with_budgets(report, budgets);

@@ -3,6 +3,7 @@
 #include <limits>
 #include <numeric>
 #include <random>
+#include <utility>
 
 #include <boresight/design/tuning/ensemble_search.hpp>
 
@@ -28,9 +29,12 @@ FeasibleSearchOptions search_options(const TuningOptions& options) {
 }
 
 EnsembleSearch::EnsembleSearch(std::vector<PlantEvaluator>& plants,
-                               control::LoopStructure structure, const Constraints& goals,
+                               control::LoopStructure structure, Constraints goals,
                                const TuningOptions& options)
-    : plants_(plants), structure_(std::move(structure)), goals_(goals), options_(options) {
+    : plants_(plants),
+      structure_(std::move(structure)),
+      goals_(std::move(goals)),
+      options_(options) {
   if (options.objective.kind != ObjectiveKind::nominal) {
     for (std::size_t i = 1; i < plants.size(); ++i) {
       if (!plants[i].is_at_standstill()) ensemble_.push_back(i);

@@ -30,7 +30,7 @@ class EnsembleSearch {
  public:
   /// `plants` must outlive the search, which modifies them.
   EnsembleSearch(std::vector<PlantEvaluator>& plants, control::LoopStructure structure,
-                 const Constraints& goals, const TuningOptions& options);
+                 Constraints goals, const TuningOptions& options);
 
   /// Searches from a point with the plants `active`, then evaluates the result on all plants. The
   /// worst plants that violate a constraint or exceed the objective become active, and the search

@@ -245,13 +245,11 @@ CardLine present_line(const Report& report, const TuningSection& section) {
 struct BudgetDetail {
   std::size_t shown = 3;
   bool named = true;
-  bool with_basis = true;  // "linear"
 };
 
 // Those that matter first: required ones before others, the tightest before wider ones. The
-// probability of the first.
-CardLine budget_line(const Report& report, const TuningSection& section,
-                     const BudgetDetail& detail) {
+// probability of the first. Simulated or linear as the error is.
+CardLine budget_line(const TuningSection& section, const BudgetDetail& detail) {
   std::vector<BudgetResult> order = section.budgets;
   std::ranges::stable_sort(order, {}, [](const BudgetResult& one) {
     return std::pair(!one.budget.wind_speed.has_value(), one.budget.rms);
@@ -274,12 +272,9 @@ CardLine budget_line(const Report& report, const TuningSection& section,
     }
     budgets.push_back(std::move(text));
   }
-  // Without room for it the line of the error says it.
-  const bool is_said = !detail.with_basis || (simulated(report) && !detail.named);
-  const char* basis = is_said ? "" : simulated(report) ? "; simulated" : "; linear";
   return {"Budgets (mdeg)",
           budgets.empty() ? "the case states none ([[pointing.budget]])"
-                          : fmt::format("{}{}", fmt::join(budgets, "; "), basis),
+                          : fmt::format("{}", fmt::join(budgets, "; ")),
           std::string(loops)};
 }
 
@@ -445,7 +440,7 @@ std::vector<CardLine> card_with_budgets(const Report& report, const BudgetDetail
   if (section.design.usable()) {
     card.push_back(pointing_line(report, section));
     card.push_back(present_line(report, section));
-    card.push_back(budget_line(report, section, budgets));
+    card.push_back(budget_line(section, budgets));
     card.push_back(stability_line(section));
     if (report.time_domain) card.push_back(limit_cycle_line(*report.time_domain));
   }
@@ -462,8 +457,7 @@ std::vector<CardLine> redesign_card(const Report& report) {
   if (!report.tuning) return {};
   // On one screen: of a controller of many gains fewer budgets are shown, or one without its name.
   constexpr std::ptrdiff_t most_lines = 16;
-  constexpr std::array<BudgetDetail, 5> details{
-      {{3, true}, {2, true}, {1, true}, {1, false}, {1, false, false}}};
+  constexpr std::array<BudgetDetail, 4> details{{{3, true}, {2, true}, {1, true}, {1, false}}};
   std::vector<CardLine> card;
   for (const auto& budgets : details) {
     card = card_with_budgets(report, budgets);

@@ -187,8 +187,7 @@ TEST(RedesignCard, StatesUpToWhichWindBudgetsAreMet) {
   report.tuning->budgets = {required};
   EXPECT_EQ(
       line_of(report, "Budgets (mdeg)"),
-      "Ka 0.600 (need) to 11.2 m/s (required 12), probability 0.250 (0.114 to 0.410) at 12 m/s; "
-      "simulated");
+      "Ka 0.600 (need) to 11.2 m/s (required 12), probability 0.250 (0.114 to 0.410) at 12 m/s");
   EXPECT_THAT(line_of(report, "Error per axis"), HasSubstr("; budget 0.600, met"));
   InputEffect effect;
   effect.low_rms = effect.high_rms = 0.61 * millidegree;

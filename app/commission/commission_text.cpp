@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -121,12 +120,6 @@ Document comparison_part(const CommissionReport& report) {
                     "  ");
 }
 
-bool has_position_integral(const control::LoopStructure& structure) {
-  return std::ranges::any_of(structure.blocks(), [](const control::LoopBlock& block) {
-    return block.path == control::LoopPath::position && block.kind == control::BlockKind::integral;
-  });
-}
-
 Document plan_part(const CommissionReport& report) {
   Document text;
   text += wrapped(fmt::format("Final gains: {}. Ensemble: {} plants, {}; wind {:g} m/s, {} model. "
@@ -136,8 +129,9 @@ Document plan_part(const CommissionReport& report) {
                               report.wind_model, 100.0 * report.options.confidence),
                   "  ");
   if (report.plan.detuning) {
+    const auto& structure = report.plan.stages.back().controller.controller.structure;
     const bool integral =
-        has_position_integral(report.plan.stages.back().controller.controller.structure);
+        structure.count(control::LoopPath::position, control::BlockKind::integral) > 0;
     const bool known = report.plan.stages.front().kind == design::StageKind::as_found;
     text += essential(wrapped(
         fmt::format(

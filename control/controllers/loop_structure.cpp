@@ -133,19 +133,20 @@ double nearest_power_of_ten(double factor) {
   return std::pow(10.0, std::clamp(std::round(std::log10(factor)), -6.0, 6.0));
 }
 
-// By which gain `k` of a block changes with a load that is so much faster and heavier.
-double gain_factor(const LoopBlock& block, std::size_t k, double faster, double heavier) {
+// By which gain `k` of a block changes with a load that is so much faster and of so much more
+// inertia.
+double gain_factor(const LoopBlock& block, std::size_t k, double faster, double inertia) {
   if (block.kind == BlockKind::notch && k > 0) return 1.0;
   if (block.kind != BlockKind::gain) return faster;
   switch (block.path) {
     case LoopPath::rate:
       break;
     case LoopPath::pressure:
-      return 1.0 / (heavier * faster);
+      return 1.0 / (inertia * faster);
     case LoopPath::position:
       return faster;
     case LoopPath::compliance:
-      return 1.0 / (heavier * faster * faster);
+      return 1.0 / (inertia * faster * faster);
   }
   return 1.0;
 }
@@ -219,10 +220,8 @@ LoopStructure LoopStructure::with_compliance_compensation() const {
 }
 
 LoopStructure LoopStructure::with_position_lag() const {
-  if (!name().starts_with("PI")) {
-    throw InvalidInput(fmt::format(
-        "loop structure '{}': expected one of the usual with integrals for a position lag",
-        name()));
+  if (count(LoopPath::position, BlockKind::integral) == 0 || !name().starts_with("PI")) {
+    refuse(name(), "expected a usual PI structure, whose integrals a position lag can replace");
   }
   std::vector<LoopBlock> blocks = this->blocks();
   std::erase_if(blocks,
@@ -280,11 +279,11 @@ LoopStructure LoopStructure::with_bounds_for(const DrivenLoad& load) const {
   }
   const DrivenLoad usual;
   const double faster = load.frequency / usual.frequency;
-  const double heavier = load.inertia / usual.inertia;
+  const double inertia = load.inertia / usual.inertia;
   std::vector<LoopBlock> blocks = this->blocks();
   for (LoopBlock& one : blocks) {
     for (std::size_t k = 0; k < one.gains.size(); ++k) {
-      const double moved = nearest_power_of_ten(gain_factor(one, k, faster, heavier));
+      const double moved = nearest_power_of_ten(gain_factor(one, k, faster, inertia));
       one.gains[k].lower *= moved;
       one.gains[k].upper *= moved;
     }
@@ -306,6 +305,10 @@ const std::vector<GainDescription>& LoopStructure::gains() const {
 
 bool LoopStructure::has(LoopPath path) const {
   return std::ranges::any_of(blocks(), [&](const LoopBlock& one) { return one.path == path; });
+}
+
+int LoopStructure::count(LoopPath path, BlockKind kind) const {
+  return count_of(blocks(), path, kind);
 }
 
 bool LoopStructure::operator==(const LoopStructure& other) const {

@@ -97,6 +97,8 @@ class LoopStructure {
   const std::vector<LoopBlock>& blocks() const;
   const std::vector<GainDescription>& gains() const;
   bool has(LoopPath path) const;
+  /// Number of blocks of that kind in the path.
+  int count(LoopPath path, BlockKind kind) const;
   bool operator==(const LoopStructure& other) const;
 
  private:

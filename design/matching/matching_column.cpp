@@ -33,21 +33,16 @@ MatchingColumn::MatchingColumn(const MatchingTask& task, const MatchingOptions& 
   search_.stop = options.stop;
   const double factor = task.motor_inertia[number] / task.problem.plant.drive.motor_inertia;
   TrackingProblem problem = task.problem;
+  problem.plant.drive.motor_inertia = task.motor_inertia[number];
   plants_.reserve(1 + task.members.size());
-  problem.plant.drive.motor_inertia = task.motor_inertia[number];
   plants_.emplace_back("", problem, task.goals, wind, quadrature_tolerance);
+  TrackingProblem other = problem;
   for (const auto& member : task.members) {
-    problem.plant = member.plant;
-    problem.plant.drive.motor_inertia *= factor;
-    plants_.emplace_back(member.name, problem, task.goals, wind, quadrature_tolerance);
+    other.plant = member.plant;
+    other.plant.drive.motor_inertia *= factor;
+    plants_.emplace_back(member.name, other, task.goals, wind, quadrature_tolerance);
   }
-  problem.plant = task.problem.plant;
-  problem.plant.drive.motor_inertia = task.motor_inertia[number];
-  const std::vector<double> none;
-  for (const double friction : task.goals.standstill ? task.goals.standstill->friction : none) {
-    plants_.push_back(
-        PlantEvaluator::at_standstill(problem, friction, task.goals, wind, quadrature_tolerance));
-  }
+  append_standstill(problem, task.goals, wind, plants_, quadrature_tolerance);
   cells_.resize(task.structures.size());
   for (auto& cell : cells_) cell.tried.assign(3 + task.structures.size(), 0);
 }

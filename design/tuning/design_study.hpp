@@ -24,8 +24,8 @@ struct Verification {
   /// lyapunov - spectral| / spectral, of the total rms.
   double rms_disagreement = 0.0;
   /// True if the eigenvalues are stable and every peak's upper bound is within its limit (tolerance
-  /// 1e-6). The control effort must be within its limit too (1e-4, by the spectrum on the problem's
-  /// grid), and so must the peaks at standstill. The two rms values must agree within 0.5 %.
+  /// 1e-6). The control effort must be within its limit too (1e-5, by the spectrum on a
+  /// fine grid), and so must the peaks at standstill. The two rms values must agree within 0.5 %.
   bool passed = false;
   /// Reason for a failure; empty if passed.
   std::string failure;

@@ -104,21 +104,16 @@ void find_peak(const MeasuredProblem& problem, const control::Controller& contro
   }
 }
 
-int integrators_of(const control::Controller& controller, control::LoopPath path) {
-  return static_cast<int>(
-      std::ranges::count_if(controller.structure.blocks(), [path](const control::LoopBlock& block) {
-        return block.path == path && block.kind == control::BlockKind::integral;
-      }));
-}
-
 }  // namespace
 
 MeasuredVerification verify(const MeasuredProblem& problem, const control::Controller& controller,
                             const MeasuredConstraints& goals, double radius) {
   control::validate(controller);
   MeasuredVerification result;
-  const int rate = integrators_of(controller, control::LoopPath::rate);
-  const int position = integrators_of(controller, control::LoopPath::position);
+  const int rate =
+      controller.structure.count(control::LoopPath::rate, control::BlockKind::integral);
+  const int position =
+      controller.structure.count(control::LoopPath::position, control::BlockKind::integral);
   const EncirclementCount open =
       encirclements(problem, controller, LoopBreak::rate_loop_alone, rate, result.open_steps);
   const EncirclementCount closed = encirclements(problem, controller, LoopBreak::valve_command,

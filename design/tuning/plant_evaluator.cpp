@@ -85,4 +85,13 @@ bool PlantEvaluator::stable_by_eigenvalues(const control::Controller& controller
   return control::stability(plant_, controller, delay_, frequency_).stable();
 }
 
+void append_standstill(const TrackingProblem& problem, const Constraints& goals,
+                       const WindTable& wind, std::vector<PlantEvaluator>& plants,
+                       double tolerance) {
+  if (!goals.standstill) return;
+  for (const double friction : goals.standstill->friction) {
+    plants.push_back(PlantEvaluator::at_standstill(problem, friction, goals, wind, tolerance));
+  }
+}
+
 }  // namespace boresight::design

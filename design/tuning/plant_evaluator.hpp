@@ -61,4 +61,9 @@ class PlantEvaluator {
   PlantEvaluation plant_evaluation_;
 };
 
+/// Appends one evaluator at_standstill for each friction of Constraints::standstill, if given.
+void append_standstill(const TrackingProblem& problem, const Constraints& goals,
+                       const WindTable& wind, std::vector<PlantEvaluator>& plants,
+                       double tolerance = control::LoopQuadrature{}.tolerance);
+
 }  // namespace boresight::design

@@ -36,22 +36,18 @@ void check(const control::LoopStructure& structure, const Constraints& goals,
   validate(goals);
 }
 
-std::vector<PlantEvaluator> make_plants(TrackingProblem problem, const Constraints& goals,
+std::vector<PlantEvaluator> make_plants(const TrackingProblem& problem, const Constraints& goals,
                                         const std::vector<EnsembleMember>& members) {
   const WindTable wind(problem);
-  const plant::AntennaPlant own = problem.plant;
-  const std::vector<double> none;
   std::vector<PlantEvaluator> plants;
   plants.reserve(1 + members.size());
   plants.emplace_back("", problem, goals, wind);
+  TrackingProblem other = problem;
   for (const auto& member : members) {
-    problem.plant = member.plant;
-    plants.emplace_back(member.name, problem, goals, wind);
+    other.plant = member.plant;
+    plants.emplace_back(member.name, other, goals, wind);
   }
-  problem.plant = own;
-  for (const double friction : goals.standstill ? goals.standstill->friction : none) {
-    plants.push_back(PlantEvaluator::at_standstill(problem, friction, goals, wind));
-  }
+  append_standstill(problem, goals, wind, plants);
   return plants;
 }
 
@@ -190,7 +186,7 @@ void describe_limits(std::vector<PlantEvaluator>& plants, const EnsembleSearch& 
       if (goal.ratio > threshold * (1.0 - 1e-4)) binding.push_back({goal, plant.name(), 0.0});
     }
   }
-  // Nothing to price where the winding and the eigenvalues differ on a member.
+  // Nothing to price where the encirclements and the eigenvalues differ on a member.
   if (!feasible && binding.empty()) return;
   const auto row = [&](const std::array<double, control::max_gains>& gradient) {
     return Eigen::Map<const Eigen::RowVectorXd>(gradient.data(), size);

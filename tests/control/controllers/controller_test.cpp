@@ -128,7 +128,9 @@ TEST(LoopStructure, PositionLagReplacesTheIntegrals) {
   const auto lag = LoopStructure::named("FULL+L+N+C");
   EXPECT_EQ(lag.name(),
             "P with lead, lag and pressure feedback, position lag, notch, compliance compensation");
-  for (const auto& block : lag.blocks()) EXPECT_NE(block.kind, BlockKind::integral);
+  EXPECT_EQ(LoopStructure::full().count(LoopPath::position, BlockKind::integral), 1);
+  EXPECT_EQ(lag.count(LoopPath::position, BlockKind::integral), 0);
+  EXPECT_EQ(lag.count(LoopPath::rate, BlockKind::integral), 0);
   const double kr = 0.7, kp = 0.4, wpp = 0.2, wzp = 3.0;
   const Controller controller{LoopStructure::named("PI-0+L"), {kr, kp, wpp, wzp}};
   for (const double w : {1e-4, 0.1, 2.0, 150.0}) {

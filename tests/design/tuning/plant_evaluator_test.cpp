@@ -1,7 +1,9 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
-#include "refused_call.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/design/tuning/design_study.hpp>
@@ -42,7 +44,7 @@ TEST(PlantEvaluator, HasThePeakAtStandstillOfAnIndependentBound) {
   for (const auto& goal : found.ratios) EXPECT_EQ(goal.kind, GoalKind::standstill_peak);
   const auto peaks =
       control::sensitivity_bounds(at_standstill(problem, friction), controller, problem.delay);
-  EXPECT_NEAR(3.0 * found.worst_ratio(), peaks[valve].upper, 1e-5 * peaks[valve].upper);
+  EXPECT_NEAR(3.0 * found.worst_ratio(), peaks[valve].upper, 1e-6 * peaks[valve].upper);
 }
 
 TEST(PlantEvaluator, HasTheGradientOfThePeakAtStandstill) {
@@ -59,7 +61,7 @@ TEST(PlantEvaluator, HasTheGradientOfThePeakAtStandstill) {
       controller.gains[k] = gain;
       return value;
     };
-    EXPECT_NEAR(gradient[k], (peak(1.0 + step) - peak(1.0 - step)) / (2.0 * step), 1e-3) << k;
+    EXPECT_NEAR(gradient[k], (peak(1.0 + step) - peak(1.0 - step)) / (2.0 * step), 1e-4) << k;
   }
 }
 
@@ -83,7 +85,7 @@ TEST(Standstill, IsMetByWhatIsTunedForIt) {
     EXPECT_TRUE(control::stability(plant, tuned.controller, problem.delay, analysis_grid(problem))
                     .stable());
     EXPECT_LE(control::sensitivity_bounds(plant, tuned.controller, problem.delay)[valve].upper,
-              3.0 * (1.0 + 1e-5));
+              3.0 * (1.0 + 1e-6));
   }
   // It costs rms, and says so by a shadow price.
   EXPECT_GT(tuned.soft_rms, free.soft_rms);

@@ -1,5 +1,5 @@
 // 100 000 plants, each with other structure, oil, leakage, friction and inertias, under one
-// controller with its gains held; and how far a second thread speeds that up beside a loop of
+// controller with fixed gains; and how far a second thread speeds that up beside a loop of
 // arithmetic alone.
 #include <atomic>
 #include <chrono>

@@ -28,7 +28,7 @@ CONSTANT = re.compile(r"(?<![.\w])(\w+) = ")
 MATCHER = re.compile(r"^MATCHER\w*\((\w+)")
 # Of what stands after a dot, an arrow or a scope there is no doubt whose it is.
 WORD = re.compile(r"(?<!\.)(?<!->)(?<!::)\b[A-Za-z_]\w*")
-# Words of the language that a declaration may show in the place of a name, and what GoogleTest looks for
+# Words of the language that a declaration may show instead of a name, and what GoogleTest looks for
 # by this name beside a type, so that each is an overload.
 NOT_NAMES = {"PrintTo", "bool", "char", "double", "float", "int", "long", "short", "unsigned", "void"}
 

@@ -40,7 +40,7 @@ inline boresight::plant::AntennaPlant plant() {
   StructureSpecification structure;
   structure.antenna_inertia = reflected_inertia(dish_inertia, gear_ratio());
   structure.bull_gear_beam_weight = 0.05;
-  // Hz, damping ratio, shares of inertia, of wind torque and in the beam's angle.
+  // Hz, damping ratio, fractions of inertia and wind torque, weight in the boresight angle.
   structure.modes = {{2.4, 0.01, 0.62, 0.75, 0.80},
                      {3.4, 0.01, 0.14, 0.15, 0.25},
                      {4.6, 0.01, 0.07, 0.05, -0.15},

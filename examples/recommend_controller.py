@@ -12,8 +12,8 @@ case = boresight.read_case(sys.argv[1])
 for method in boresight.identify(case).methods:
     print(f"{method.name}: {method.reflected_inertia} kg.m2")
 tuning = boresight.tune(case)
-for law in tuning.controllers:
-    print(law, "constraints met" if law.constraints_met else "constraints missed")
+for controller in tuning.controllers:
+    print(controller, "constraints met" if controller.constraints_met else "constraints missed")
 print("recommended:", tuning.best, tuning.best.gains if tuning.best else tuning.shortfalls)
 matching = boresight.match(case, points=4)
 for series in matching.series:
@@ -22,5 +22,5 @@ for series in matching.series:
 if len(sys.argv) > 2:
     evaluation = boresight.evaluate(case, sys.argv[2:])
     print("worth its cost:", evaluation.worth_its_cost)
-    for name, chance in evaluation.probabilities:
-        print(f"{name}: least rms with probability {chance:.3f}")
+    for name, probability in evaluation.probabilities:
+        print(f"{name}: least rms with probability {probability:.3f}")

@@ -129,15 +129,15 @@ void add_evaluation(py::module_& module) {
       .def_property_readonly(
           "probabilities",
           [](const Evaluation& evaluation) {
-            std::vector<std::pair<std::string, double>> chances;
+            std::vector<std::pair<std::string, double>> probabilities;
             const auto& section = evaluation.section();
-            if (!section.decision) return chances;
+            if (!section.decision) return probabilities;
             const auto& decision = *section.decision;
             for (std::size_t i = 0; i < decision.candidates.size(); ++i) {
-              chances.emplace_back(section.candidates[decision.candidates[i].candidate].name,
-                                   decision.statistics.options[i].best.value);
+              probabilities.emplace_back(section.candidates[decision.candidates[i].candidate].name,
+                                         decision.statistics.options[i].best.value);
             }
-            return chances;
+            return probabilities;
           },
           "(name, probability that it has the least rms) of those compared");
   module.def(

@@ -9,7 +9,7 @@
 #include <boresight/numerics/complex_packs.hpp>
 #include <boresight/numerics/vector_clones.hpp>
 
-/// The peers' antenna servo (peer_family.hpp) as an evaluator of control laws sees it.
+/// The peers' antenna servo (peer_family.hpp) as an evaluator of control controllers sees it.
 namespace boresight::reference {
 
 /// Responses of the peers' plant at a frequency (rad/s), eight modes at a time.
@@ -118,7 +118,7 @@ inline double peer_rms(double variance) {
   return std::sqrt(variance) * d.arcseconds / d.gear_ratio;
 }
 
-/// The peers' gains as a law: u = krp e_r + kri zr is krp (1 + wi/s), wi = kri/krp.
+/// The peers' gains as a controller: u = krp e_r + kri zr is krp (1 + wi/s), wi = kri/krp.
 inline control::Controller peer_controller(const PeerGains& gains) {
   return {control::LoopStructure::pi(),
           {gains.rate_gain, gains.rate_integral / gains.rate_gain, gains.position_gain,

@@ -13,7 +13,7 @@
 #include <boresight/design/tuning/feasible_search.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 
-/// The peers' tuning: least rms of the pointing error with the peak of S at the valve at most 2,
+/// The peers' tuning: least rms of the pointing error with the Ms at the valve at most 2,
 /// over the logarithms of four gains within the peers' bounds.
 namespace boresight::reference {
 
@@ -41,7 +41,7 @@ inline PeerGains peer_gains(const std::vector<double>& logarithm) {
           std::exp(logarithm[3])};
 }
 
-/// From the logarithms of the law's gains, kr, kri/kr, kp, kpi/kp, to those of the peers'.
+/// From the logarithms of the controller's gains, kr, kri/kr, kp, kpi/kp, to those of the peers'.
 inline void to_peer_gradient(const std::array<double, control::max_gains>& by_controller,
                              double factor, double* by_peer_gain) {
   by_peer_gain[0] = factor * (by_controller[0] - by_controller[1]);
@@ -75,7 +75,7 @@ inline design::ConstrainedProblem peer_tuning_problem(control::LoopEvaluator& ev
   return problem;
 }
 
-/// One tuning with its set-up; nothing where no law within the limit was met.
+/// One tuning with its set-up; nothing where no controller within the limit was met.
 inline std::optional<PeerTuning> tune_peer(Eigen::Index modes,
                                            const PeerGains& start = peer_tuning_start) {
   control::LoopEvaluator evaluator = peer_evaluator(modes);
@@ -88,7 +88,8 @@ inline std::optional<PeerTuning> tune_peer(Eigen::Index modes,
                     peer_peak_limit * std::exp(best->violation), search.evaluations()};
 }
 
-/// The same law judged on the dense state space: eigenvalues, Lyapunov's equation, Hamiltonian.
+/// The same controller judged on the dense state space: eigenvalues, Lyapunov's equation,
+/// Hamiltonian.
 struct PeerEvaluation {
   double abscissa = 0.0;  // 1/s
   double rms = 0.0;       // arcsec

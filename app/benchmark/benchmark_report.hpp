@@ -41,7 +41,7 @@ struct BenchmarkReport : design::BenchmarkStudy {
   std::vector<std::string> remarks;
   /// Whether plant and ensemble are what the case's records show, not what it states.
   bool from_records = false;
-  std::string attitudes_text;  // which were judged, in words
+  std::string attitudes_text;  // which were evaluated, in words
   std::string ensemble_source;
   std::optional<TimeDomainSection> time_domain;
   std::string no_time_domain;  // why there is none

@@ -91,7 +91,7 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
 void fill_redesign(const io::Case& antenna, const StudyOptions& options, Report& report) {
   fill_identification(antenna, options, report);
   report.audit = audit_report(antenna);
-  // With records the redesign is of the drive that they show, and is judged on what they leave
+  // With records the redesign is of the drive that they show, and is evaluated on what they leave
   // open.
   const io::DesignedAntenna plant = designed_antenna(antenna, report.campaign, options.seed);
   const io::Case& designed = plant.antenna;

@@ -101,7 +101,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
       report.comparisons.push_back({std::move(compared), std::nullopt});
     }
   }
-  // What the records say of work that is done does not hang on a plan.
+  // What the records say of work that is done does not depend on a plan.
   const auto without_plan = [&](const std::exception& error) {
     if (report.comparisons.empty()) throw;
     report.failure = std::current_exception();

@@ -98,7 +98,7 @@ std::string probabilities(const EvaluateSection& section, const DecisionSection&
   return parts.empty() ? "" : fmt::format(". It is {}", fmt::join(parts, " and "));
 }
 
-std::string chances(const EvaluateSection& section, const DecisionSection& decision) {
+std::string probabilities(const EvaluateSection& section, const DecisionSection& decision) {
   const auto& ranking = decision.ranking;
   const double minimum = ranking.losses[decision.best];
   const Candidate& best = section.candidates[decision.candidates[decision.best].candidate];
@@ -200,7 +200,7 @@ std::string what_to_test(const EvaluateSection& section, const DecisionSection& 
 std::vector<std::string> conclude_samples(const EvaluateSection& section,
                                           const DecisionSection& decision) {
   std::vector<std::string> sentences{
-      chances(section, decision), not_worth_paying(section, decision),
+      probabilities(section, decision), not_worth_paying(section, decision),
       what_decides(section, decision), what_to_test(section, decision)};
   std::erase(sentences, "");
   return sentences;

@@ -8,7 +8,7 @@
 namespace boresight::app {
 
 /// Proposals by cost and rms with their front, side by side with what the ensemble spreads them
-/// over, their chances, and which inputs decide between the two best.
+/// over, their probabilities, and which inputs decide between the two best.
 std::vector<Figure> evaluate_figures(const EvaluateSection& section);
 
 }  // namespace boresight::app

@@ -14,7 +14,7 @@ constexpr std::size_t classes = 40;       // of the histogram
 constexpr double shown_fraction = 0.995;  // of the plants, that the histogram reaches to
 constexpr std::size_t curve_points = 400;
 
-// Beam rms of the stable plants, mdeg, rising.
+// Boresight rms of the stable plants, mdeg, rising.
 std::vector<double> sorted_rms(const MonteCarloOutcome& outcome) {
   std::vector<double> values;
   const auto& run = *outcome.run;

@@ -1,5 +1,5 @@
 "use strict";
-// Sliders over the matching study's table: what the held laws give where the antenna or the wind is
+// Sliders over the matching study's table: what the controllers give, gains fixed, where the antenna or the wind is
 // not what they were tuned for.
 (() => {
   const panel = document.querySelector(".what-if");

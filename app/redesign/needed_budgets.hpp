@@ -14,7 +14,7 @@ bool meets_need(const design::PointingBudget& budget, double reached);
 /// "need (Ka: 1.200 mdeg)".
 std::string budget_text(const design::PointingBudget& budget);
 
-/// Mean wind speed (m/s) up to which a budget is met with the gains held, and the supply's torque
+/// Mean wind speed (m/s) up to which a budget is met with fixed gains, and the supply's torque
 /// still carries the mean wind, friction and offset; infinite if neither ends within the search.
 double reached_wind_speed(const TuningSection& section, const BudgetResult& budget);
 

@@ -40,13 +40,13 @@ struct DecidingInput {
   std::optional<design::InputValue> test;
 };
 
-void describe_probability(io::Visitor& v, std::string_view key, const design::Probability& chance,
-                          std::string_view meaning) {
+void describe_probability(io::Visitor& v, std::string_view key,
+                          const design::Probability& probability, std::string_view meaning) {
   v.group(key, meaning, [&] {
     v.defined_as("probability", "A probability with its 95 % interval, for the number of samples.");
-    v.number("value", chance.value, unit::ratio, "The probability.", known);
-    v.number("lower_95", chance.lower, unit::ratio, "Lower end.", known);
-    v.number("upper_95", chance.upper, unit::ratio, "Upper end.", known);
+    v.number("value", probability.value, unit::ratio, "The probability.", known);
+    v.number("lower_95", probability.lower, unit::ratio, "Lower end.", known);
+    v.number("upper_95", probability.upper, unit::ratio, "Upper end.", known);
   });
 }
 

@@ -11,13 +11,13 @@ class Visitor;
 
 namespace boresight::app {
 
-/// The headings of the section and of its part about chances, which figures name too.
+/// The headings of the section and of its part about probabilities, which figures name too.
 std::string heading_of(const EvaluateSection& section);
 std::string heading_of(const DecisionSection& decision);
 
 /// The section of the report.
 Document document_of(const EvaluateSection& section);
-/// Its part about chances, regrets and tests.
+/// Its part about probabilities, regrets and tests.
 Document document_of(const EvaluateSection& section, const DecisionSection& decision);
 
 /// "evaluated" of docs/report.schema.json, and its "decision".

@@ -120,8 +120,10 @@ void describe_result(io::Visitor& v, const PointController& one) {
   v.number("gust_torque", value.gust_torque, unit::newton_metre, "Motor torque, the same.");
   v.number("bandwidth", value.bandwidth, unit::hertz,
            "Lowest frequency at which the position loop's |S| reaches 0.71.");
-  v.number("acceleration_error", value.acceleration_error, {.suffix = "s2"},
-           "Steady error per constant acceleration that is not fed forward.");
+  v.number(
+      "acceleration_error", value.acceleration_error, {.suffix = "s2"},
+      "Error per constant acceleration that is not fed forward, at the lowest frequency of the "
+      "analysis: steady with a position integral, otherwise still growing.");
   v.list("margins", margins, "At each loop break.");
   describe_gains(v, controller.controller);
   v.list("active_constraints", controller.active_constraints,

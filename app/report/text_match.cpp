@@ -171,15 +171,18 @@ Document margins_part(const MatchSection& section) {
     }
   }
   return table(rows, "lrrrrrrrrrrrrl") +
-         wrapped(fmt::format(
-                     "On the case's plant. wind, noise: rms, mdeg. dB, deg, ms: smallest gain, "
-                     "phase and delay margin of the three breaks. Hz: where the position loop's "
-                     "|S| reaches 0.71. s2: mdeg of steady error per mdeg/s2 of constant "
-                     "acceleration that is not fed forward. effort: control effort, rad/s. demand "
-                     "(rad/s), N.m: valve and motors in the mean wind and {:g} times the rms of "
-                     "its gusts. check: eigenvalues, Ms and rms confirmed independently.",
-                     section.goals.crest_factor),
-                 "  ");
+         wrapped(
+             fmt::format(
+                 "On the case's plant. wind, noise: rms, mdeg. dB, deg, ms: smallest gain, "
+                 "phase and delay margin of the three breaks. Hz: where the position loop's "
+                 "|S| reaches 0.71. s2: mdeg of error per mdeg/s2 of constant acceleration that "
+                 "is not fed forward, steady with a position integral, otherwise after "
+                 "1/(2 pi f) at the lowest frequency f of the analysis. effort: control effort, "
+                 "rad/s. demand "
+                 "(rad/s), N.m: valve and motors in the mean wind and {:g} times the rms of "
+                 "its gusts. check: eigenvalues, Ms and rms confirmed independently.",
+                 section.goals.crest_factor),
+             "  ");
 }
 
 std::string limit_cycle_text(const std::vector<design::LimitCycleResult>& limit_cycles,

@@ -53,11 +53,10 @@ void add_notes(MeasuredTuneSection& section) {
         "no encoder was recorded: its difference from the motor angle is that of the case's "
         "structure, uncertain by 20 %, and the position loop depends on it");
   }
-  if (section.other_goals) {
-    notes.emplace_back(
-        "constraints applied: maximum sensitivity Ms and control effort; not applied: margins, "
-        "bandwidth, gust demand");
-  }
+  notes.push_back(fmt::format(
+      "constraints applied: maximum sensitivity Ms and control effort; not applied: Ms at "
+      "standstill{}",
+      section.other_goals ? ", margins, bandwidth, gust demand" : ""));
 }
 
 }  // namespace

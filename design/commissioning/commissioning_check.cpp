@@ -226,7 +226,8 @@ StageObservation StageObserver::observe(const StageController& stage) {
   seen.peak = peak(stage);
   seen.stable = seen.abscissa < 0.0 && verdict.dead_time_residue < 1.0 && std::isfinite(seen.peak);
   if (stage.position_open) {
-    // The residue is of both loops: of an open one only the winding speaks beside the eigenvalues.
+    // The residue is of both loops: of an open one only the encirclements are compared with the
+    // eigenvalues.
     seen.stable = seen.abscissa < 0.0 && std::isfinite(seen.peak);
   }
   seen.crossover = seen.stable ? crossover(stage) : no_number;

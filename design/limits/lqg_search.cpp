@@ -125,7 +125,7 @@ struct Trial {
 
 class Search {
  public:
-  // The LQG of `model`, judged on `plants`.
+  // The LQG of `model`, evaluated on `plants`.
   Search(const SampledSetting& model, const std::vector<SampledSetting>& plants,
          const LqgSearchGoals& goals, unsigned threads)
       : model_(model),

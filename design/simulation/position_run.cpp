@@ -40,8 +40,8 @@ struct SimulatedAxis {
   double sample_time;  // s, of the controller
 };
 
-// Beam rms of the linear design in wind of that mean speed (rad at the sky); none of an unstable
-// one.
+// Boresight rms of the linear design in wind of that mean speed (rad at the sky); none of an
+// unstable one.
 std::optional<double> predicted_rms(const TrackingProblem& problem, const TuningResult& evaluated,
                                     double mean_speed) {
   if (mean_speed <= 0.0 || evaluated.status == TuningStatus::unstable) return std::nullopt;

@@ -39,7 +39,8 @@ struct MeasuredTuningStudy {
   double wind_speed = 0.0;  // m/s
   std::optional<control::MeasuredChannels> channels;
   MeasuredConstraints goals;
-  /// True if the mission has constraints of other kinds, which the tuning ignores.
+  /// True if the mission has constraints of other kinds than these and Constraints::standstill. The
+  /// tuning ignores both.
   bool other_goals = false;
   std::vector<MeasuredController> controllers;
 

@@ -27,7 +27,7 @@ double mean_loss(double rms, const PointingBand& band) {
   return pointing_loss_db(rms, band.beamwidth, LossConvention::mean_loss_two_axes);
 }
 
-// The plants that were judged, in their order.
+// The plants that were evaluated, in their order.
 class Evaluated {
  public:
   Evaluated(const MonteCarloRun& run, const PlantDistribution& distribution, std::uint64_t seed)

@@ -21,7 +21,7 @@ std::optional<std::size_t> controller_of(const ProposedDesign& candidate,
   return static_cast<std::size_t>(found - candidate.controllers.begin());
 }
 
-// Columns of rms by candidate and controller; those that the choice has not judged yet are held
+// Columns of rms by candidate and controller; those that the choice has not evaluated yet are held
 // here.
 class Columns {
  public:

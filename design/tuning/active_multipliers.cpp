@@ -100,12 +100,12 @@ Multipliers active_multipliers(const ActiveSet& active) {
     if (active.at_upper[static_cast<std::size_t>(k)]) upper.push_back(k);
   }
   const auto bounds = static_cast<Index>(lower.size() + upper.size());
-  // The last row makes the objectives' weights sum to 1; heavy, so that it is nearly met.
+  // The last row makes the objectives' weights sum to 1; of large weight, so that it is nearly met.
   const double scale = std::max(active.objectives.rowwise().norm().maxCoeff(), 1e-300);
-  const double heavy = 10.0 * scale;
+  const double weight = 10.0 * scale;
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(variables + 1, objectives + constraints + bounds);
   matrix.topLeftCorner(variables, objectives) = active.objectives.transpose();
-  matrix.bottomLeftCorner(1, objectives).setConstant(heavy);
+  matrix.bottomLeftCorner(1, objectives).setConstant(weight);
   if (constraints > 0) {
     matrix.block(0, objectives, variables, constraints) = active.constraints.transpose();
   }
@@ -113,7 +113,7 @@ Multipliers active_multipliers(const ActiveSet& active) {
   for (const Index k : lower) matrix(k, column++) = -1.0;
   for (const Index k : upper) matrix(k, column++) = 1.0;
   Eigen::VectorXd right = Eigen::VectorXd::Zero(variables + 1);
-  right[variables] = heavy;
+  right[variables] = weight;
 
   // Columns of length 1: the gradients of steep constraints weigh no more than others.
   Eigen::VectorXd length = matrix.colwise().norm();

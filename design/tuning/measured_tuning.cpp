@@ -133,7 +133,7 @@ void find_fractions(const MeasuredProblem& problem, MeasuredTuningResult& result
   add_all(problem.channels.encoder_assumed(), &AssumedFraction::encoder);
 }
 
-// Central differences over the oil spring, gains held.
+// Central differences over the oil spring, gains fixed.
 void find_oil_sensitivity(const MeasuredProblem& problem, MeasuredTuningResult& result) {
   constexpr double step = 1e-3;
   const Eigen::ArrayXd grid = measured_grid(problem, problem.points_per_decade, false);

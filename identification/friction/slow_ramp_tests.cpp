@@ -12,7 +12,7 @@
 namespace boresight::identification {
 namespace {
 
-constexpr double smoothing_time = 0.1;  // s, of the rate that motion is judged by
+constexpr double smoothing_time = 0.1;  // s, of the rate that motion is detected by
 
 Eigen::VectorXd mean_pressures(const DriveRecord& record, Eigen::Index first, Eigen::Index count) {
   Eigen::VectorXd mean(

@@ -40,9 +40,10 @@ GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const Vec
     entering += square;
     ++of_entering;
   }
-  constexpr double chance = 0.999;
-  if (conflict.count > 0) conflict.limit = numerics::chi_squared_quantile(chance, conflict.count);
-  if (of_entering > 0 && entering > numerics::chi_squared_quantile(chance, of_entering)) {
+  constexpr double confidence = 0.999;
+  if (conflict.count > 0)
+    conflict.limit = numerics::chi_squared_quantile(confidence, conflict.count);
+  if (of_entering > 0 && entering > numerics::chi_squared_quantile(confidence, of_entering)) {
     conflict.widening = entering / of_entering;
   }
   return conflict;

@@ -12,7 +12,8 @@ namespace boresight::identification {
 /// Whether what fits the records is what drawings, data sheets and instruments say.
 struct GreyBoxConflict {
   /// Squares of the distances from the stated numbers, in units of their uncertainties: of all that
-  /// drawings, data sheets and instruments state; how many; and what chance makes of so many.
+  /// drawings, data sheets and instruments state; how many; and the largest that so many have at
+  /// random.
   double sum = 0.0;
   int count = 0;
   double limit = 0.0;

@@ -274,7 +274,7 @@ void GreyBoxParameters::add_modes(const DriveKnowledge& knowledge) {
     positive(f.value, "locked-rotor frequency");
     // On a locked rotor all of the antenna depends on springs: what seems to turn rigidly is the
     // mass of the modes that are not stated, by the usual rule of modal analysis a tenth; the lower
-    // modes are the heavier ones. A larger rigid part would have to come out of the motors'
+    // modes are those of more inertia. A larger rigid part would have to come out of the motors'
     // inertia, which is known well, and so out of the transducers' gains.
     const double rank = static_cast<double>(i + 1);
     const double against_rest = 9.0 / (rank * rank * sum);

@@ -23,7 +23,7 @@ std::vector<GreyBoxResidual> residual_statistics(const GreyBoxObjective& objecti
                                                  const std::vector<GreyBoxRecord>& records,
                                                  const VectorXd& point) {
   constexpr Index tested = 20;
-  const double chance = numerics::chi_squared_quantile(0.95, static_cast<double>(tested));
+  const double limit = numerics::chi_squared_quantile(0.95, static_cast<double>(tested));
   std::vector<GreyBoxResidual> out;
   for (std::size_t i = 0; i < objective.channels().size(); ++i) {
     const auto& channel = objective.channels()[i];
@@ -52,7 +52,7 @@ std::vector<GreyBoxResidual> residual_statistics(const GreyBoxObjective& objecti
         q += n * (n + 2.0) * first(lag - 1) * first(lag - 1) /
              std::max(1.0, n - static_cast<double>(lag));
       }
-      r.white = (s == 0 || r.white) && q <= chance;
+      r.white = (s == 0 || r.white) && q <= limit;
       if (std::abs(first(0)) > std::abs(r.neighbours)) r.neighbours = first(0);
     }
     // Summed until the correlation first vanishes.

@@ -208,7 +208,7 @@ DriveResponse drive_response(const DriveRecord& record, const Campaign& campaign
           orifice_loss_rate(record, knowledge, k, flow, part.first, part.samples);
       leakage = oil.total_loss_rate.value - oil.orifice_loss_rate;
     }
-    // The fraction of the orifices to 6 %: supply droop and the valve's law.
+    // The fraction of the orifices to 6 %: supply droop and the valve's characteristic.
     oil.leakage_rate = numerics::normal_interval(
         leakage,
         std::hypot(oil.total_loss_rate.standard_uncertainty, 0.06 * oil.orifice_loss_rate));

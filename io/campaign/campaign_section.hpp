@@ -28,7 +28,7 @@ struct MethodFailure {
 
 /// Difference of another estimate from the combined one.
 struct Difference {
-  double relative = 0.0;    // over the reconciled value
+  double relative = 0.0;    // over the combined value
   double normalised = 0.0;  // over both standard uncertainties' root sum of squares
 };
 
@@ -41,7 +41,7 @@ struct InertiaRow {
   /// All motors over everything else, eq. 27; upper end infinite where the inertia's interval
   /// reaches the motors' own.
   numerics::Interval motor_to_load_ratio;
-  std::optional<Difference> difference;  // where there is a reconciled inertia
+  std::optional<Difference> difference;  // where there is a combined inertia
   std::string assumes;
   /// Causes of its difference from the combined estimate of the inertia, in words and numbers.
   std::string why;

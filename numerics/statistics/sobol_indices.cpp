@@ -18,7 +18,7 @@ namespace {
 
 // Nested uniform scrambling of one coordinate: every binary digit is flipped or not by a coin that
 // depends on the digits before it. Points tell one another apart by their first 24 digits at most;
-// the rest is chance.
+// the rest is sampling error.
 double scrambled(std::uint64_t digits, std::uint64_t stream) {
   constexpr int nested = 24;
   std::uint64_t result = 0;

@@ -113,7 +113,7 @@ std::vector<PlantMode> plant_modes(const AntennaPlant& plant) {
     }
     if (moves_oil(mode)) {
       // l^H (dA/d ln K) r: K stands in the torque's row, at the motors' rate and at the valve's
-      // flow, which the poles do not hang on.
+      // flow, which the poles do not depend on.
       const std::complex<double> moved = -plant.drive.oil_stiffness *
                                          std::conj(eigen.left(torque, i)) *
                                          eigen.right(motor_rate, i);

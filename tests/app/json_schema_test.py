@@ -445,7 +445,7 @@ class Redesign(unittest.TestCase):
                                  design["structure"] != "PI without lag")
                 for cut, goal in zip(design["loop_breaks"], goals):
                     self.assertLessEqual(cut["sensitivity_peak_1"], goal * (1 + 1e-6))
-                    # A peak of S bounds the phase margin from below.
+                    # Ms bounds the phase margin from below.
                     self.assertGreaterEqual(
                         cut["margins"]["phase_margin_deg"],
                         math.degrees(2 * math.asin(0.5 / cut["sensitivity_peak_1"])) - 1e-3)

@@ -25,7 +25,7 @@ MPI_PROGRAM = sys.argv[3] if len(sys.argv) > 3 else None
 SCHEMA = json.loads((SOURCE / "docs/montecarlo.schema.json").read_text(encoding="utf-8"))
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
 CASE = (SOURCE / "cases/dss14-70m/case.toml").read_text(encoding="utf-8")
-# A law to hold, so that nothing is tuned: as a case says what its antenna runs on.
+# A controller to hold, so that nothing is tuned: as a case says what its antenna runs on.
 GAINS = """
 [gains]
 structure = "PI"

@@ -123,7 +123,7 @@ class Octave(unittest.TestCase):
                             "--json", sheet, folder=folder)
                     scores.append(json.loads((folder / sheet).read_text(encoding="utf-8"))["score"])
         self.check_plant(seen, report)
-        # The same controller from either file is the same score, and the continuous one is the law's.
+        # The same controller from either file is the same score, and the continuous one is the controller's.
         self.assertEqual(scores[0], scores[2])
         self.assertEqual(scores[1], scores[3])
         self.assertNotEqual(scores[0], scores[1])

@@ -55,7 +55,7 @@ inline plant::ShapingFilter wind_filter(int order) {
                                    order);
 }
 
-/// A law anywhere within the bounds of the search.
+/// A controller anywhere within the bounds of the search.
 inline control::Controller random_controller(RandomNumbers& random,
                                              control::LoopStructure structure) {
   control::Controller controller{structure, {}};
@@ -65,7 +65,8 @@ inline control::Controller random_controller(RandomNumbers& random,
   return controller;
 }
 
-/// A law drawn from the whole bounds until it is stable with every sensitivity peak within a limit.
+/// A controller drawn from the whole bounds until it is stable with every sensitivity peak within a
+/// limit.
 inline control::Controller sound_controller(RandomNumbers& random,
                                             control::LoopEvaluator& evaluator,
                                             control::LoopStructure structure, double highest_peak) {

@@ -17,7 +17,7 @@ inline design::TrackingProblem tracking_problem(double disks = 24.0) {
   return problem;
 }
 
-/// A cautious law, stable on the reference antenna.
+/// A cautious controller, stable on the reference antenna.
 inline control::Controller cautious_gains() {
   return {control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}};
 }

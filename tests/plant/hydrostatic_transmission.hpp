@@ -13,7 +13,7 @@ namespace boresight::reference {
 
 /// A pump of variable displacement drives a motor with an inertia through two lines, high and low,
 /// each with a make-up and a relief valve; a PI controller of the speed sets the displacement.
-/// tests/data/hopsan names the model. Valves keep their law between their events.
+/// tests/data/hopsan names the model. A valve stays in its regime between its events.
 class HydrostaticTransmission : public plant::OdeSystem {
  public:
   // The integral of what make-up valves give less what relief valves take is carried as a state.
@@ -69,10 +69,10 @@ class HydrostaticTransmission : public plant::OdeSystem {
   Eigen::Index events() const override { return 6; }
   void event_values(double t, const Eigen::Ref<const Eigen::VectorXd>& x,
                     Eigen::Ref<Eigen::VectorXd> g) const override;
-  /// Changes the law as the events tell.
+  /// Changes the regime as the events tell.
   void change(const Eigen::VectorXi& directions);
 
-  /// Which of the events have been passed rising: the present law.
+  /// Which of the events have been passed rising: the present regime.
   const std::array<bool, 6>& beyond() const { return beyond_; }
 
  private:

@@ -82,7 +82,7 @@ def test_best_law_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
     assert max(margins.sensitivity_peak for margins in best.margins.values()) <= 2.0 + 1e-6
     closed = boresight.closed_loop(boresight.plant(antenna), best.controller, antenna.controller_delay)
     assert closed.poles().real.max() < 0
-    # The law's own state space, with the peak of |S| at the valve found by plain numpy.
+    # The controller's own state space, with the peak of |S| at the valve found by plain numpy.
     plant = boresight.plant(antenna).state_space
     controller = best.controller.state_space()
     peak = best.margins["valve command"]

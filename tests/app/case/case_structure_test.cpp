@@ -101,7 +101,7 @@ TEST(MotorsHeldCase, IsTheAntennaThatHasTheseFrequencies) {
   EXPECT_THAT(found_in(antenna, "motors held").reasoning, IsEmpty());
 }
 
-// So that what the rms hangs on moves what was measured.
+// So that what the rms depends on moves what was measured.
 TEST(MotorsHeldCase, MovesWithAStatedFrequency) {
   io::Case antenna = parsed(restated());
   auto expected = plant::motors_held_modes(make_plant(antenna).structure);
@@ -276,7 +276,7 @@ double spring_at_axis(const io::Case& antenna) {
   return make_plant(antenna).structure.gear_stiffness * std::pow(io::gear_ratio(antenna), 2);
 }
 
-// The 70-m antenna by its gear train's stiffness in the place of the locked-rotor frequency.
+// The 70-m antenna by its gear train's stiffness instead of the locked-rotor frequency.
 EditedCase by_gear_stiffness(const std::string& stiffness) {
   return EditedCase().replace_line(
       "locked_rotor_frequency",

@@ -145,7 +145,7 @@ TEST(Commission, RefusesWhatItCannotUse) {
               HasSubstr("expected both --before and --after, or neither"));
   EXPECT_THAT(refusal(pressure_gains, {"--before", "one", "--after", "two"}),
               HasSubstr("expected [[record]]s to compare, found none"));
-  // A law that no plant can be run on is infeasible, not bad input.
+  // A controller that no plant can be run on is infeasible, not bad input.
   auto wild = pressure_gains;
   wild[0] = "kr=60";
   const ProgramResult result = commission(path, wild);

@@ -193,12 +193,13 @@ TEST(EvaluateConclusions, SayThatNoCandidateMeetsANeededBudget) {
               testing::ElementsAre(EndsWith("comes nearest, with 11.0 m/s (and within 2 % of it as "
                                             "it is).")));
   EXPECT_THAT(told(11.0, true, 10.7), testing::ElementsAre(EndsWith("with 11.0 m/s.")));
-  // What hunts meets nothing.
+  // What limit-cycles meets nothing.
   EXPECT_THAT(told(13.0, false),
               testing::ElementsAre(HasSubstr("as it is comes nearest, with 8.0 m/s")));
 }
 
-// Candidates fit to be chosen or hunting, by mean rms over the draws and the chance to be best.
+// Candidates fit to be chosen or limit-cycling, by mean rms over the samples and the probability to
+// be best.
 struct Drawn {
   double mean;
   double best;

@@ -1,4 +1,4 @@
-// Candidates with laws of different structures, held against each other with one on both.
+// Candidates with controllers of different structures, held against each other with one on both.
 #include <string>
 #include <vector>
 

@@ -16,7 +16,7 @@
 namespace boresight::app {
 namespace {
 
-// The study of one law at two numbers of disks, with the gains of the last held at both.
+// The study of one controller at two numbers of disks, with the gains of the last held at both.
 design::MatchingStudy study_of_one_controller(const io::Case& antenna) {
   design::MatchingStudy section;
   section.goals = make_goals(antenna);

@@ -1,4 +1,4 @@
-// A law held where the guessed shares of wind and beam are elsewhere.
+// A controller held where the guessed fractions of wind and beam are elsewhere.
 #include <string>
 #include <vector>
 

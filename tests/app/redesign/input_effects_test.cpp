@@ -58,7 +58,7 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
   const auto& controller = design.tuning.controller;
   const auto effects =
       input_effects(antenna, controller, make_goals(antenna), design.boresight_rms, all, 2);
-  // The wind's torque goes with the density, and the sensors' noise does not.
+  // The wind's torque scales with the density, and the sensors' noise does not.
   const InputEffect& density = effect_of(effects, "wind.air_density");
   EXPECT_FALSE(density.unstated);
   EXPECT_NEAR(density.moved_by, 0.033, 1e-12);
@@ -66,7 +66,8 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
               1e-5 * design.boresight_rms);
   EXPECT_NEAR(density.low_rms, std::hypot(0.97 * design.wind_rms, design.noise_rms),
               1e-5 * design.boresight_rms);
-  // An assumed number without an uncertainty is moved by a tenth; the torque goes with it as well.
+  // An assumed number without an uncertainty is moved by a tenth; the torque scales with it as
+  // well.
   const InputEffect& coefficient = effect_of(effects, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
   EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind->torque_coefficient.value);

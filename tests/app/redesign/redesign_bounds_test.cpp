@@ -19,7 +19,7 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 
-// A law whose search ended at the upper bounds of rate lag corner and position gain.
+// A controller whose search ended at the upper bounds of rate lag corner and position gain.
 design::Design design_at_upper_bounds() {
   design::Design design;
   design.verification.passed = true;

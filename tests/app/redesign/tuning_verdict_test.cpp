@@ -92,7 +92,7 @@ TEST(TuningVerdict, GivesTheShareOfTheClimatesTime) {
   EXPECT_EQ(met_text(section, section.budgets[1]),
             "is met up to 16.0 m/s, beyond the climate's highest speed of 10 m/s");
   EXPECT_THAT(decision(report).front(), HasSubstr("9.1 m/s (75 % of the time)"));
-  // The supply ends before the law does.
+  // The supply ends before the controller does.
   section.torque_limited_wind_speed = 7.0;
   EXPECT_THAT(met_text(section, section.budgets[2]),
               AllOf(HasSubstr("up to the 7.0 m/s"), HasSubstr("(75 % of the time)")));
@@ -318,7 +318,7 @@ TEST(TuningVerdict, SaysWhatItDoesNotKnow) {
   EXPECT_THAT(tuning_conclusions(report), Each(Not(HasSubstr("not examined"))));
   report.tuning->design.verification.passed = false;
   EXPECT_THAT(decision(report).front(), HasSubstr("fails verification"));
-  // Of a law on which nothing is decided there is nothing to reserve but what is assumed.
+  // Of a controller on which nothing is decided there is nothing to reserve but what is assumed.
   EXPECT_THAT(reservations(report), ElementsAre(HasSubstr("is assumed")));
 }
 

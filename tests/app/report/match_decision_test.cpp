@@ -294,7 +294,7 @@ TEST(MatchConclusions, NameTheStructuresThatLimitCycleAndByHowMuch) {
   EXPECT_THAT(with(lost_at(series, 1)),
               Contains(AllOf(HasSubstr("Freedom from limit cycles is not shown for DPF+C"),
                              Not(HasSubstr("+-")))));
-  // Seen to hunt in one run, it is known enough.
+  // Seen to limit-cycle in one run, it is known enough.
   MatchSeries seen = limit_cycles(series, 3.0);
   design::LimitCycleResult lost;
   lost.status = design::RunStatus::lost;

@@ -109,8 +109,8 @@ TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
 TEST(TimeDomain, DecidesForAControllerThatHoldsStill) {
   auto chosen = section();
   EXPECT_EQ(decide(chosen), "");
-  // One of less rms in wind that hunts beyond the budget of 0.527 mdeg, which is why it was passed
-  // over.
+  // One of less rms in wind that limit-cycles beyond the budget of 0.527 mdeg, which is why it was
+  // passed over.
   auto limit_cycles = chosen.result;
   limit_cycles.wind.boresight_rms = 0.1 * mdeg;
   limit_cycles.limit_cycles[0].boresight_amplitude = 8.73 * mdeg;
@@ -292,8 +292,9 @@ TEST(TimeDomain, SaysWhyAnotherControllerThanTheLinearlyBestIsChosen) {
   EXPECT_DOUBLE_EQ(json.at("candidates")[1].at("predicted_rms_mdeg").get<double>(), 0.3);
 }
 
-// Laws of so much rms by the linear plant, simulated, and hunting at rest, all in mdeg; the last is
-// the one chosen, by a budget of 0.527 mdeg rms, which is a limit cycle of +-0.745.
+// Controllers of so much rms by the linear plant, simulated, and limit-cycling at rest, all in
+// mdeg; the last is the one chosen, by a budget of 0.527 mdeg rms, which is a limit cycle of
+// +-0.745.
 struct ControllerInWind {
   double linear, simulated, limit_cycles;
 };
@@ -331,7 +332,7 @@ TEST(TimeDomain, SaysByWhatRuleAControllerWasChosen) {
   }
   EXPECT_THAT(told({{0.3, 2.2, 4.8}, {0.5, 1.8, 5.8}}),
               HasSubstr("All limit-cycle " + limit + "; " + minimum));
-  // One that holds still, but not in wind, is none to choose.
+  // One that has no limit cycle, but not in wind, is none to choose.
   EXPECT_THAT(told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
               HasSubstr("None completes the run in wind and is shown free of limit cycles " +
                         limit + "; of those that complete it " + minimum));

@@ -279,8 +279,8 @@ TEST(Tune, SaysThatABudgetIsOutOfReach) {
 }
 
 // Of the reference antenna with its whole ensemble: a structure is never worse than one that it
-// contains, and the robust law with compensation is the one that `match` finds from its neighbours
-// in inertia (0.3340 mdeg), not the optimum 2 % above it that random starts end in.
+// contains, and the robust controller with compensation is the one that `match` finds from its
+// neighbours in inertia (0.3340 mdeg), not the optimum 2 % above it that random starts end in.
 TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
   const io::Case antenna = io::read_case(case_path("dss14-70m"));
   design::Mission mission = mission_of(antenna);

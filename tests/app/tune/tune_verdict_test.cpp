@@ -1,4 +1,5 @@
-// What is said of tuned laws against budgets, on the nonlinear antenna and at bounds of the search.
+// What is said of tuned controllers against budgets, on the nonlinear antenna and at bounds of the
+// search.
 #include <limits>
 #include <string>
 #include <utility>
@@ -41,7 +42,7 @@ TuneSection section_with_need() {
   return section;
 }
 
-// One of its laws, good in all by the linear plant.
+// One of its controllers, good in all by the linear plant.
 TunedController controller_of(const std::string& structure, TunedFor purpose, double rms_mdeg) {
   TunedController controller;
   controller.structure = structure;
@@ -55,7 +56,7 @@ TunedController controller_of(const std::string& structure, TunedFor purpose, do
   return controller;
 }
 
-// A robust one that ran on the nonlinear antenna, where it hunts; in mdeg.
+// A robust one that ran on the nonlinear antenna, where it limit-cycles; in mdeg.
 TunedController controller_in_time(const std::string& structure, double rms, double limit_cycles,
                                    double simulated) {
   TunedController controller = controller_of(structure, TunedFor::robust, rms);
@@ -63,7 +64,7 @@ TunedController controller_in_time(const std::string& structure, double rms, dou
   return controller;
 }
 
-// Of 30 plants that may be the true one, some within an rms of 2.1 mdeg and the others of 2.5.
+// Of 30 ensemble members, some within an rms of 2.1 mdeg and the others of 2.5.
 design::EnsembleResult ensemble_with(int within) {
   design::EnsembleResult ensemble;
   for (int i = 0; i < 30; ++i) {
@@ -75,8 +76,9 @@ design::EnsembleResult ensemble_with(int within) {
   return ensemble;
 }
 
-// On the nonlinear antenna the best law of the linear plant hunts; LL points a little better than
-// PI, and hunts a little more. The lead of LL does nothing in a controller of 0.02 s.
+// On the nonlinear antenna the best controller of the linear plant limit-cycles; LL points a little
+// better than PI, and limit-cycles a little more. The lead of LL does nothing in a controller of
+// 0.02 s.
 TuneSection section_of_two_alike() {
   TuneSection section = section_with_need();
   section.budgets.front().rms = 2.444 * millidegree;
@@ -99,7 +101,7 @@ TEST(TuneVerdict, HoldsABudgetAgainstAControllerThatIsGoodForAllPlants) {
   TuneSection section = section_with_need();
   section.controllers = {controller_of("PI", TunedFor::nominal, 1.1),
                          controller_of("PI", TunedFor::robust, 1.3)};
-  // The nominal law may be unstable on another plant: it meets nothing.
+  // The nominal controller may be unstable on another plant: it meets nothing.
   ASSERT_EQ(best_controller(section, 12.0), &section.controllers[1]);
   EXPECT_EQ(best_controller(section, 10.0), nullptr);
   const auto shortfalls = find_shortfalls(section);
@@ -213,7 +215,8 @@ TEST(Shortfalls, TrustNoBudgetToAControllerThatLimitCycles) {
   section.controllers = {controller_in_time("DPF+C", 1.0, 7.4, 1.05),
                          controller_in_time("LL", 1.1, 0.2, 1.5),
                          controller_in_time("PI", 1.5, 0.2, 1.6)};
-  // The linear plant's best meets the budget, and hunts; the second misses it on the nonlinear one.
+  // The linear plant's best meets the budget, and limit-cycles; the second misses it on the
+  // nonlinear one.
   EXPECT_EQ(best_controller(section, 12.0), &section.controllers[0]);
   EXPECT_EQ(nearest_to_budget(section, 12.0), &section.controllers[1]);
   auto shortfalls = find_shortfalls(section);
@@ -231,7 +234,8 @@ TEST(Shortfalls, TrustNoBudgetToAControllerThatLimitCycles) {
                               "the linear plant, limit-cycles by +-7.40 mdeg.")));
   EXPECT_THAT(conclude(section),
               Contains(HasSubstr("but it limit-cycles by +-7.40 mdeg on the nonlinear antenna")));
-  // A law that loses on the nonlinear antenna but meets the budget there all the same is good.
+  // A controller that loses on the nonlinear antenna but meets the budget there all the same is
+  // good.
   section.controllers[1] = controller_in_time("LL", 0.9, 0.2, 1.15);
   EXPECT_TRUE(find_shortfalls(section).empty());
   // Where none is left, the least simulated rms with its limit cycle comes nearest, not the linear
@@ -267,7 +271,7 @@ TEST(Shortfalls, TrustNoBudgetToAControllerThatLimitCycles) {
               AllOf(HasSubstr("DPF+C (robust) comes nearest with 1.3500 mdeg on the nonlinear"),
                     HasSubstr("On the nonlinear antenna it limit-cycles by +-7.40 mdeg, and no "
                               "other robust controller is fit")));
-  // Its hunting breaks a budget that its rms in wind meets, of +-1.7 mdeg; not one of +-7.5.
+  // Its limit cycle breaks a budget that its rms in wind meets, of +-1.7 mdeg; not one of +-7.5.
   section.controllers = {controller_in_time("DPF+C", 1.0, 7.4, 1.05)};
   ASSERT_EQ(find_shortfalls(section).size(), 1U);
   EXPECT_THAT(conclude(section), Each(Not(HasSubstr("is met up to the required"))));
@@ -300,7 +304,7 @@ TEST(RecommendedController, IsTheOneThatTheTimeDomainChooses) {
   EXPECT_EQ(recommended_tuned_controller(section, 10.0), nullptr);
   std::swap(section.controllers[0], section.controllers[1]);
   EXPECT_EQ(recommended_tuned_controller(section, 12.0), &section.controllers[1]);
-  // An rms that is better by more than a little outweighs the hunting.
+  // An rms that is better by more than a little outweighs the limit cycle.
   section.controllers[0].in_time->boresight_rms = 2.0 * millidegree;
   EXPECT_EQ(recommended_tuned_controller(section, 12.0), &section.controllers[0]);
   EXPECT_EQ(why_not_recommended(section, section.controllers[1], section.controllers[0]),
@@ -316,7 +320,7 @@ TEST(RecommendedController, IsTheOneThatTheTimeDomainChooses) {
   // A run in wind that did not complete is no merit.
   section.controllers[0].in_time->boresight_rms = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(recommended_tuned_controller(section, 12.0), &section.controllers[1]);
-  // Where all hunt, none is.
+  // Where all limit-cycle, none is.
   section.controllers[1].in_time->limit_cycle_free = false;
   EXPECT_EQ(recommended_tuned_controller(section, 12.0), nullptr);
   EXPECT_THAT(conclude(section), Each(Not(HasSubstr("recommended"))));
@@ -333,7 +337,8 @@ TEST(RecommendedController, IsWhatFiguresAndExportedModelsAreOf) {
   in_time.controller = "LL, robust";
   ASSERT_EQ(best_controller(section), &section.controllers[2]);
   EXPECT_EQ(shown_controller(section, &in_time), &section.controllers[0]);
-  // Where all hunt, that of the time domain's figures, and the linear plant's best without one.
+  // Where all limit-cycle, that of the time domain's figures, and the linear plant's best without
+  // one.
   for (auto& controller : section.controllers) controller.in_time->limit_cycle_free = false;
   ASSERT_EQ(recommended_tuned_controller(section), nullptr);
   EXPECT_EQ(shown_controller(section, &in_time), &section.controllers[1]);
@@ -360,10 +365,10 @@ TEST(RecommendedController, IsTheOneOfEveryConclusion) {
   EXPECT_EQ(decision(section, {}, {}).front(),
             "Recommended: PI (robust), 2.155 mdeg rms per axis in 12 m/s wind, simulated (2.128 "
             "linear).");
-  // Another law is worth a word only where it meets the budget on more plants.
+  // Another controller is worth a word only where it meets the budget on more plants.
   section.controllers[1].ensemble = ensemble_with(27);
   EXPECT_THAT(conclude(section), Contains(EndsWith("and meets it on 27 of 30 plants.")));
-  // The linear plant's best is not the one recommended though it does not hunt.
+  // The linear plant's best is not the one recommended though it does not limit-cycle.
   section.controllers[1].boresight_rms = 2.12 * millidegree;
   section.controllers.pop_back();
   EXPECT_THAT(decision(section, {}, {}).at(1),

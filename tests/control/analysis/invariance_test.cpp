@@ -33,8 +33,8 @@ struct Servo {
   plant::StateSpace loop, disturbance, command;
 };
 
-/// A result that goes with the `time_power`-th power of the unit of time and the `gain_power`-th of
-/// that of the disturbance's response.
+/// A result that scales with the `time_power`-th power of the unit of time and the `gain_power`-th
+/// of that of the disturbance's response.
 struct Result {
   std::string name;
   double value = 0.0;

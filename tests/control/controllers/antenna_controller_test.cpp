@@ -117,7 +117,7 @@ TEST(AntennaController, BackCalculationIsStableForEveryController) {
     }
     AntennaController antenna_controller(controller, sample_time, {.command_limit = 1.0});
     ASSERT_GT(antenna_controller.back_calculation_fraction(), 0.0) << trial;
-    // At the limit for an hour: the law's answer does not grow.
+    // At the limit for an hour: the controller's answer does not grow.
     const auto measured = controller.structure.has(LoopPath::pressure)
                               ? vector({0.0, 0.0, 0.0, 1.0, 0.0, 0.0})
                               : vector({0.0, 0.0, 1.0, 0.0, 0.0});

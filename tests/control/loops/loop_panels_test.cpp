@@ -1,4 +1,5 @@
-// The evaluator on frequencies of its own choice: accurate for every law, whatever its damping.
+// The evaluator on frequencies of its own choice: accurate for every controller, whatever its
+// damping.
 #include <algorithm>
 #include <cmath>
 #include <functional>

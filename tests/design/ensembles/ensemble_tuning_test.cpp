@@ -230,8 +230,8 @@ TEST(Tune, NamesTheGoalsThatContradictOneAnother) {
   EXPECT_TRUE(kinds.contains(GoalKind::bandwidth));
   EXPECT_TRUE(kinds.contains(GoalKind::sensitivity_peak));
   EXPECT_NEAR(shadow_prices, 1.0, 1e-3);
-  // It is the closest: with every limit relaxed by its ratio there is a law, with less there is
-  // none from many starts.
+  // It is the closest: with every limit relaxed by its ratio there is a controller, with less there
+  // is none from many starts.
   const auto relaxed = [&](double factor) {
     Constraints loose = goals;
     for (double& peak : loose.sensitivity_peak) peak *= factor;
@@ -273,7 +273,7 @@ TEST(Tune, HoldsMarginsBandwidthAndGusts) {
   EXPECT_EQ(held.status, TuningStatus::optimal);
   EXPECT_GE(phase(held.controller), *goals.phase_margin[2] * (1.0 - 1e-6));
   EXPECT_GT(held.soft_rms, free.soft_rms);
-  // By the verification's own crossovers too, which the free law fails.
+  // By the verification's own crossovers too, which the free controller fails.
   EXPECT_TRUE(verify(problem, held.controller, goals).passed);
   EXPECT_THAT(verify(problem, free.controller, goals).failure,
               HasSubstr("phase margin at position loop"));

@@ -41,7 +41,7 @@ void expect_same(const FixedGainValues& one, const FixedGainValues& other) {
   EXPECT_EQ(one.stable, other.stable);
 }
 
-// A law of every block there is, without regard to how good it is.
+// A controller of every block there is, without regard to how good it is.
 control::Controller full_controller() {
   control::Controller controller{control::LoopStructure::named("FULL+N+C"), {}};
   for (const auto& gain : controller.structure.gains()) {

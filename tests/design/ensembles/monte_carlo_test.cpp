@@ -41,7 +41,7 @@ MonteCarlo study(std::uint64_t plants, double wildness = 0.0) {
           .plant = [=](std::uint64_t index) { return antenna_number(index, wildness); }};
 }
 
-// A law that a share of the plants does not bear.
+// A controller that a fraction of the plants does not bear.
 MonteCarlo hot_study(std::uint64_t plants) {
   MonteCarlo hot = study(plants, 1.0);
   hot.controller.gains[0] *= 1.1;
@@ -156,7 +156,7 @@ TEST(MonteCarlo, TellsWhichGoalsBreak) {
 
 TEST(MonteCarlo, RetunesEachPlantToNoMoreThanTheFixedController) {
   MonteCarlo calm = study(4);
-  // A held law that meets the goals and is far from the best.
+  // A controller with fixed gains that meets the goals and is far from the best.
   calm.retune = true;
   MonteCarloRun run(calm);
   run.work_on(run.missing_blocks(), {.threads = 2});

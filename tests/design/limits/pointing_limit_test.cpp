@@ -24,7 +24,7 @@ TrackingProblem problem_with_torque_noise() {
   return problem;
 }
 
-// The best known law of each structure under the default goals.
+// The best known controller of each structure under the default goals.
 std::vector<DescribedController> tuned_controllers() {
   const auto controller = [](const char* name, std::vector<double> gains) {
     return DescribedController{name, {control::LoopStructure::named(name), std::move(gains)}};

@@ -113,7 +113,7 @@ TEST(MatchingCurves, ThreadsMakeNoDifference) {
   }
 }
 
-// Above 15 disks one goal on one plant holds each of the PI laws: no kinks, smooth curves.
+// Above 15 disks one goal on one plant holds each of the PI controllers: no kinks, smooth curves.
 TEST(MatchingCurves, ThirdDifferencesStayWithinThreeTolerances) {
   const auto even = smoothness(small_study().curves[1], {0, 1, 2, 3});
   ASSERT_EQ(even.third_differences.size(), 1U);
@@ -169,7 +169,7 @@ TEST(MatchingCurves, SaysWhatItCannotWorkOn) {
 }
 
 // ln rms = x^3/1000 along the points has the third difference 6/1000; a change of what holds the
-// laws takes the stretches across it out.
+// controllers takes the stretches across it out.
 TEST(MatchingSmoothness, TellsKinksFromUnevenness) {
   MatchingCurve curve{LoopStructure::pi(), {}};
   for (int i = 0; i < 8; ++i) {

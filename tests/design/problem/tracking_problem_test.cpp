@@ -35,7 +35,7 @@ TEST(MakeEvaluator, SpansTheBandOfTheProblem) {
   EXPECT_EQ(evaluator.delay(), 0.03);
 }
 
-// The rms against speed of one law.
+// The rms against speed of one controller.
 class RmsAtSpeed {
  public:
   RmsAtSpeed() {

@@ -50,7 +50,7 @@ TEST(WindClimate, ScalesWithTheSpeed) {
   }
 }
 
-// Of all winds, by the law itself.
+// Of all winds, by the distribution itself.
 double fraction_above(const WeibullClimate& controller, double speed) {
   return std::exp(-std::pow(speed / controller.scale, controller.shape));
 }

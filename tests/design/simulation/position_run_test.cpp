@@ -13,7 +13,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-// The tuned PI law of the reference antenna.
+// The tuned PI controller of the reference antenna.
 control::Controller steady_controller(double position_gain = 10.258) {
   return {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, position_gain, 0.23531}};
 }

@@ -7,8 +7,8 @@
 
 namespace boresight::reference {
 
-/// A law of that name whose gains are those of one PI loop, whatever the name, and whose simulated
-/// rms is `factor` times that of its linear loops.
+/// A controller of that name whose gains are those of one PI loop, whatever the name, and whose
+/// simulated rms is `factor` times that of its linear loops.
 inline design::CandidateController fixed_controller(const std::string& structure, double factor) {
   design::CandidateController controller;
   controller.structure = structure;

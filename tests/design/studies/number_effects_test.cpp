@@ -41,7 +41,7 @@ control::Controller controller_of_test() {
   return reference::fixed_controller("PI", 1.0).design.tuning.controller;
 }
 
-// The wind's torque goes with the air's density, and the sensors' noise does not.
+// The wind's torque scales with the air's density, and the sensors' noise does not.
 TEST(NumberEffects, AreWhatTheClosedLoopSays) {
   const auto problem = tracking_problem(reference::demo_mission());
   const auto alone = assess(problem, controller_of_test(), {});

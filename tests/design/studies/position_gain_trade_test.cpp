@@ -18,7 +18,7 @@ TuningResult ended_at_position_gain(std::vector<double> gains) {
   return tuning;
 }
 
-// The robust PI law of this antenna: a position gain of 30 1/s on a rate gain of 0.04.
+// The robust PI controller of this antenna: a position gain of 30 1/s on a rate gain of 0.04.
 TEST(PositionGainTrade, LowersThePositionGainAtTheSameProductAndRms) {
   const Mission mission = reference::demo_mission();
   const auto problem = tracking_problem(mission);
@@ -35,7 +35,7 @@ TEST(PositionGainTrade, LowersThePositionGainAtTheSameProductAndRms) {
   EXPECT_LE(position, 15.0);
   EXPECT_NEAR(position * rate, 30.0 * 0.038316, 2e-4 * position * rate);
   EXPECT_LE(trade->boresight_rms, 1.01 * rms);
-  // The law that it names has that rms, and keeps its goals as said.
+  // The controller that it names has that rms, and keeps its goals as said.
   tuning.controller.gains[0] = rate;
   tuning.controller.gains[3] = position;
   const auto named = evaluate(problem, nominal, tuning.controller, goals, 1);
@@ -57,7 +57,7 @@ TEST(PositionGainTrade, IsNoneWhereTheRateLoopActsOrNoBoundIsReached) {
   tuning.gains_at_bound.clear();
   EXPECT_FALSE(ends_at_position_gain(tuning));
   EXPECT_FALSE(position_gain_trade(problem, tuning, rms, goals, {}));
-  // The lower bound, and no law at all.
+  // The lower bound, and no controller at all.
   EXPECT_FALSE(ends_at_position_gain(ended_at_position_gain({0.4, 0.8, 6.0, 0.03, 0.02})));
   EXPECT_FALSE(ends_at_position_gain(ended_at_position_gain({})));
 }

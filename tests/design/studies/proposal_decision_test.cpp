@@ -25,7 +25,7 @@ ProposedDesign candidate_of(const std::string& name, double first, double second
   return candidate;
 }
 
-// One plant for all, so that means over the draws go as the factors of the laws.
+// One plant for all, so that means over the draws go as the factors of the controllers.
 std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candidates,
                                         const Mission& mission = reference::uncertain_mission()) {
   ProposalOptions options;
@@ -138,7 +138,7 @@ TEST(CandidateController, IsComparedWithItsLimitCycleInQuadrature) {
   EXPECT_EQ(controller.compared_rms(), std::numeric_limits<double>::infinity());
 }
 
-// The law of ten records of wind whose mean squares differ from the linear loop's in turns.
+// The controller of ten records of wind whose mean squares differ from the linear loop's in turns.
 void in_records(CandidateController& controller, double rms, double scatter) {
   controller.time_domain->wind.predicted_rms = 1.0;
   SimulatedRms& expected = controller.expected.emplace();

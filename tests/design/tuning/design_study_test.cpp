@@ -142,14 +142,14 @@ TEST(ImproveAlong, BringsANeighboursOptimumWhereRandomStartsMissedIt) {
     tasks.push_back(task("", LoopStructure::pi_with_lag(), disks));
   }
   auto designs = solve_all(tasks, 1, {});
-  // A cautious law in place of the middle's optimum.
+  // A cautious controller in place of the middle's optimum.
   designs[1].tuning.controller = reference::cautious_gains();
   designs[1].tuning.evaluation =
       make_evaluator(tasks[1].problem).evaluate(designs[1].tuning.controller, false);
   designs[1].tuning.status = TuningStatus::optimal;
   const auto before = designs;
   improve_along(tasks, designs);
-  // Fewer disks point better than more (the neighbour's law, re-tuned).
+  // Fewer disks point better than more (the neighbour's controller, re-tuned).
   EXPECT_LT(designs[1].boresight_rms, designs[0].boresight_rms);
   EXPECT_TRUE(designs[1].verification.passed);
   for (std::size_t i = 0; i < designs.size(); ++i) {

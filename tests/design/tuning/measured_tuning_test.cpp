@@ -180,7 +180,7 @@ TEST(MeasuredTuning, KnowsNoUnitsOfTorque) {
   }
 }
 
-// From a chirp of the nonlinear antenna in motion, noise and all, to a law that holds on its
+// From a chirp of the nonlinear antenna in motion, noise and all, to a controller that holds on its
 // small-signal model there.
 TEST(MeasuredTuning, TunesFromAChirpOfTheNonlinearAntenna) {
   const auto antenna = reference::nonlinear_antenna();
@@ -261,7 +261,7 @@ TEST(MeasuredTuning, TunesFromAChirpOfTheNonlinearAntenna) {
 }
 
 TEST(MeasuredTuning, SaysWhereTheMeasurementEndsTooEarly) {
-  // The gain of this law is still above 1 at 0.5 Hz.
+  // The gain of this controller is still above 1 at 0.5 Hz.
   const MeasuredProblem problem = measured_problem(0.9999, 1, 0.02, 0.5);
   control::Controller controller{LoopStructure::pi(), {}};
   for (const auto& gain : controller.structure.gains()) controller.gains.push_back(gain.lower);

@@ -114,8 +114,8 @@ TEST(StructureParts, RandomStartsMoveOnlyWhatIsAdded) {
 }
 
 // From the neutral setting a robust search that carried the problem's own plant alone would go to
-// the nominal optimum first and end up with another law than the best, which hundreds of random
-// starts find (docs/reference-designs.md).
+// the nominal optimum first and end up with another controller than the best, which hundreds of
+// random starts find (docs/reference-designs.md).
 TEST(ImproveFrom, StaysWithTheControllerOfAPart) {
   DesignTask task;
   task.problem = reference::tracking_problem();

@@ -169,7 +169,7 @@ TEST(Tune, FindsTheSameControllerInOtherUnitsOfTimeAndTorque) {
 }
 
 TEST(Tune, GainsNothingByLessWind) {
-  // The same law serves a calmer wind better: the optimum there cannot be worse.
+  // The same controller serves a calmer wind better: the optimum there cannot be worse.
   TrackingProblem calm = coarse_problem();
   calm.wind.mean_speed = 7.0;
   const auto windy = tune(coarse_problem(), LoopStructure::pi(), {}, coarse());

@@ -82,7 +82,7 @@ TEST(IntegratorAgreement, HoldsThroughStiction) {
   auto course = windy_course(loop, 40.0);
   course.reference.setZero();
   course.reference_rate.setZero();
-  // Which sample breaks away first hangs on small errors: both integrators by tighter tolerances.
+  // Which sample breaks away first depends on small errors: both integrators by tighter tolerances.
   auto options = settling_for(10.0);
   options.relative_tolerance = 1e-8;
   options.absolute_tolerance = 1e-10;

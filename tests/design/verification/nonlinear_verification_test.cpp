@@ -19,7 +19,7 @@ using reference::mdeg;
 using testing::DoubleNear;
 using testing::HasSubstr;
 
-// The tuned PI law of the reference antenna.
+// The tuned PI controller of the reference antenna.
 control::Controller tuned_controller() {
   return {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}};
 }
@@ -182,7 +182,7 @@ TEST(NonlinearVerification, TracesHaveTheirResultsRmsAmplitudeAndPeak) {
 
 TEST(NonlinearVerification, ASlewThatLimitCyclesThroughItsBoundHasNotSettled) {
   const auto problem = reference::tracking_problem();
-  // Hunts by some 7 mdeg at rest.
+  // Limit-cycles by some 7 mdeg at rest.
   const control::Controller controller{control::LoopStructure::pi_with_lag(),
                                        {0.1587, 0.42067, 2.6279, 10.258, 1.2}};
   const auto loop = loop_with_coulomb_friction(problem, controller, 10.0);

@@ -70,7 +70,7 @@ TEST(SimulatedLoop, WithEverythingOffItIsTheLinearLoopSampleForSample) {
     const LoopRun linear = run_linear_loop(loop, course);
     ASSERT_EQ(nonlinear.status, RunStatus::complete) << nonlinear.message;
     ASSERT_EQ(linear.status, RunStatus::complete) << linear.message;
-    // The start's command under way has died out, the law's constants do not matter.
+    // The start's command under way has died out, the controller's constants do not matter.
     const Index settled = 1000, rest = linear.boresight_error.size() - settled;
     const VectorXd expected = linear.boresight_error.tail(rest);
     const VectorXd found = nonlinear.boresight_error.tail(rest);

@@ -1,4 +1,4 @@
-// What of the structure an audit holds against models, stiffness and shares of wind and beam.
+// What of the structure an audit holds against models, stiffness and fractions of wind and beam.
 #include <cmath>
 #include <string>
 

@@ -236,7 +236,7 @@ TEST(ProposedCase, RatedFlowDoesWhatTheStrokeDoes) {
     ASSERT_EQ(by_flow.changes.size(), 1U);
     EXPECT_EQ(by_flow.changes[0].before, "160 L/min");
   }
-  // A stroke that the case states beside the flow goes with it.
+  // A stroke that the case states beside the flow scales with it.
   Case both = antenna;
   both.simulation->valve_stroke.value = 150.0;
   EXPECT_NEAR(

@@ -52,7 +52,7 @@ TEST(EquivalentFriction, AddsTheViscousFriction) {
   dry.viscous_friction = 0.0;
   for (const double rate : {0.01, 0.3, 4.0}) {
     EXPECT_NEAR(equivalent_friction(reference_curve, rate) - equivalent_friction(dry, rate), 2.075,
-                1e-7 * equivalent_friction(dry, rate));
+                1e-9 * equivalent_friction(dry, rate));
   }
 }
 
@@ -66,7 +66,7 @@ TEST(EquivalentFriction, DissipatesAsMuchInAPeriod) {
       work += friction_torque(reference_curve, w) * w;
       square += w * w;
     }
-    EXPECT_NEAR(equivalent_friction(reference_curve, rate) * square / work, 1.0, 1e-6) << rate;
+    EXPECT_NEAR(equivalent_friction(reference_curve, rate) * square / work, 1.0, 1e-8) << rate;
   }
 }
 

@@ -28,23 +28,23 @@ constexpr auto foh = Interpolation::first_order_hold;
 // Channels written as one function that fills n and dn/dz.
 class Channels final : public NonlinearChannels {
  public:
-  using Controller = std::function<void(const Eigen::Ref<const Eigen::VectorXd>&,
-                                        Eigen::Ref<Eigen::VectorXd>, Eigen::Ref<Eigen::MatrixXd>)>;
-  Channels(Eigen::Index p, Eigen::Index q, Controller controller)
-      : p_(p), q_(q), controller_(std::move(controller)) {}
+  using Function = std::function<void(const Eigen::Ref<const Eigen::VectorXd>&,
+                                      Eigen::Ref<Eigen::VectorXd>, Eigen::Ref<Eigen::MatrixXd>)>;
+  Channels(Eigen::Index p, Eigen::Index q, Function function)
+      : p_(p), q_(q), function_(std::move(function)) {}
   Eigen::Index inputs() const override { return p_; }
   Eigen::Index outputs() const override { return q_; }
   void evaluate(const Eigen::Ref<const Eigen::VectorXd>& z, Eigen::Ref<Eigen::VectorXd> n,
                 Eigen::Ref<Eigen::MatrixXd> dn_dz) const override {
-    controller_(z, n, dn_dz);
+    function_(z, n, dn_dz);
   }
 
  private:
   Eigen::Index p_, q_;
-  Controller controller_;
+  Function function_;
 };
 
-// n_i = sum over z_j of a smooth law of its own: tanh, signed square root, cube.
+// n_i = sum over z_j of a smooth function: tanh, signed square root, cube.
 std::shared_ptr<const Channels> smooth_channels(Eigen::Index p, Eigen::Index q) {
   return std::make_shared<const Channels>(p, q, [p, q](const auto& z, auto n, auto dn_dz) {
     for (Eigen::Index i = 0; i < q; ++i) {
@@ -181,7 +181,7 @@ TEST(FastIntegrator, AgreesWithCvodesOnModesWithSmoothChannels) {
 // A mass that slides on bristles, stiffness s0, damping s1: z' = v - s0 |v| z/g(v), force
 // -(s0 z + s1 z').
 FeedbackSystem mass_on_bristles(double s0, double s1) {
-  const auto controller = [s0](const auto& z, auto n, auto dn_dz) {
+  const auto function = [s0](const auto& z, auto n, auto dn_dz) {
     const double v = z[0], bump = 0.05 * std::exp(-1e4 * v * v);
     const double level = 0.1 + bump, level_slope = -2e4 * v * bump;
     const double fraction = s0 * z[1] / level;
@@ -193,7 +193,7 @@ FeedbackSystem mass_on_bristles(double s0, double s1) {
   const Eigen::Matrix2d a{{-0.2, -s0}, {0.0, 0.0}};
   const Eigen::Matrix2d b{{1.0, -s1}, {0.0, 1.0}};
   const Eigen::MatrixXd c{{1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}};
-  return around(a, b, c, std::make_shared<const Channels>(2, 1, controller));
+  return around(a, b, c, std::make_shared<const Channels>(2, 1, function));
 }
 
 TEST(FastIntegrator, FollowsStiffBristles) {
@@ -214,7 +214,7 @@ TEST(FastIntegrator, FollowsStiffBristles) {
 
 TEST(FastIntegrator, PassesTheKinksOfBacklash) {
   // Motor and load, 1 kg m2 each, and a spring of 400 N m/rad with 0.1 rad of play between them.
-  const auto controller = [](const auto& z, auto n, auto dn_dz) {
+  const auto function = [](const auto& z, auto n, auto dn_dz) {
     const double excess = std::abs(z[0]) - 0.05;
     n[0] = excess > 0.0 ? 400.0 * std::copysign(excess, z[0]) : 0.0;
     dn_dz(0, 0) = excess > 0.0 ? 400.0 : 0.0;
@@ -224,7 +224,7 @@ TEST(FastIntegrator, PassesTheKinksOfBacklash) {
   const Eigen::MatrixXd b{{0.0, 0.0}, {1.0, -1.0}, {0.0, 0.0}, {0.0, 1.0}};
   const Eigen::MatrixXd c{
       {1.0, 0.0, -1.0, 0.0}, {1.0, 0.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}, {0.0, 0.0, 0.0, 1.0}};
-  const auto system = around(a, b, c, std::make_shared<const Channels>(1, 1, controller));
+  const auto system = around(a, b, c, std::make_shared<const Channels>(1, 1, function));
   reference::RandomNumbers random(63);
   const Eigen::MatrixXd u = 5.0 * random.matrix(20, 1);
   const auto expected = by_cvodes(system, u, 0.1, zoh, 1e-11);
@@ -236,7 +236,7 @@ TEST(FastIntegrator, PassesTheKinksOfBacklash) {
 
 TEST(FastIntegrator, KeepsTheEnergyOfAHardeningSpring) {
   // x'' = -stiffness x - x^3, also without any linear spring: the dense route.
-  const auto controller = [](const auto& z, auto n, auto dn_dz) {
+  const auto function = [](const auto& z, auto n, auto dn_dz) {
     n[0] = -z[0] * z[0] * z[0];
     dn_dz(0, 0) = -3.0 * z[0] * z[0];
   };
@@ -244,7 +244,7 @@ TEST(FastIntegrator, KeepsTheEnergyOfAHardeningSpring) {
     const Eigen::Matrix2d a{{0.0, 1.0}, {-stiffness, 0.0}};
     const Eigen::Matrix2d b{{0.0, 0.0}, {1.0, 1.0}};
     const Eigen::MatrixXd c{{1.0, 0.0}};
-    const auto system = around(a, b, c, std::make_shared<const Channels>(1, 1, controller));
+    const auto system = around(a, b, c, std::make_shared<const Channels>(1, 1, function));
     const auto energy = [&](const Eigen::VectorXd& x) {
       return 0.5 * (x[1] * x[1] + stiffness * x[0] * x[0]) + 0.25 * std::pow(x[0], 4);
     };
@@ -310,9 +310,8 @@ TEST(FastIntegrator, TellsItsStateAndWhatTheChannelsSee) {
 TEST(FastIntegrator, NamesTimeAndChannelOfAFailure) {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
   const Eigen::MatrixXd both = Eigen::MatrixXd::Ones(1, 2);
-  const auto integrator_of = [&](const Channels::Controller& controller, double pole,
-                                 int finest_rung) {
-    auto system = around(pole * one, both, one, std::make_shared<const Channels>(1, 1, controller));
+  const auto integrator_of = [&](const Channels::Function& function, double pole, int finest_rung) {
+    auto system = around(pole * one, both, one, std::make_shared<const Channels>(1, 1, function));
     system.linear.inputs = {"force", "valve"};
     system.linear.outputs = {"gap"};
     auto options = options_of(0.1, 1e-6);

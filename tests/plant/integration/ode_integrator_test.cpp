@@ -250,8 +250,8 @@ class Drift : public OdeSystem {
 };
 
 TEST(OdeIntegrator, CountsAZeroWhereItStoppedAsCrossed) {
-  // Found falling through zero, perhaps exactly at it. If the law then turns it back it rises
-  // through zero; from a zero that the caller sets it does not.
+  // Found falling through zero, perhaps exactly at it. If the equation then turns it back it
+  // rises through zero; from a zero that the caller sets it does not.
   for (const double start : {1.0, 0.7, 0.3}) {
     Drift system;
     OdeIntegrator integrator(system, 0.0, vector({start}));

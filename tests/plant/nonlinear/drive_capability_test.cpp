@@ -44,7 +44,7 @@ TEST(DriveCapability, SlewMarginIsOverWhatSlewingTakesAndNoneWithoutAStroke) {
   EXPECT_EQ(largest_demand(antenna), sky_to_motor(antenna, antenna.drive.slew_rate));
 }
 
-// Flow goes with the root of the drop, and fills the motors' displacements.
+// Flow scales with the root of the drop, and fills the motors' displacements.
 TEST(DriveCapability, RatedFlowGivesTheNoLoadRate) {
   Antenna antenna = demo_antenna();
   antenna.nonlinear.reset();

@@ -289,12 +289,13 @@ Document document_of(const TuningSection& section) {
   const bool far_out = std::ranges::any_of(section.losses, [](const auto& loss) {
     return std::max(loss.mean_loss_db, loss.static_bending_db) > largest_parabola_loss;
   });
-  text += table(rows) +
-          wrapped(
-              "Losses exclude static wind deflection, which the loops cannot sense; remove it by a "
-              "boresight scan.",
-              "  ") +
-          (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
+  text +=
+      table(rows) +
+      wrapped(
+          "Losses exclude static wind deflection, which the encoder does not sense; remove it by a "
+          "boresight scan.",
+          "  ") +
+      (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
   const auto& mast = section.wind_mast;
   rows = {
       {"budget", "band", "convention", "rms mdeg", "met up to m/s" + mast_column(mast), "km/h"}};

@@ -98,6 +98,13 @@ Document integrators_part(const TimeDomainSection& section) {
   return wrapped(fmt::format("Second integrator, CVODES: {}.", verdict), "  ", "  ");
 }
 
+Document static_part(const TimeDomainSection& section) {
+  return wrapped(fmt::format("Static boresight error in the mean wind, flexure included, by the "
+                             "linear loop: {} mdeg.",
+                             mdeg(section.result.wind.static_error)),
+                 "  ", "  ");
+}
+
 Document limit_cycle_part(const TimeDomainSection& section) {
   Document text;
   for (const auto& limit_cycles : section.result.limit_cycles) {
@@ -250,8 +257,8 @@ Document candidates_part(const TimeDomainSection& section) {
 
 Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.controller) +
-         wind_part(section) + integrators_part(section) + limit_cycle_part(section) +
-         reversal_part(section) + slew_part(section) +
+         wind_part(section) + integrators_part(section) + static_part(section) +
+         limit_cycle_part(section) + reversal_part(section) + slew_part(section) +
          wrapped(fmt::format(
                      "The controller: sampled every {:g} s with one sample of computing, "
                      "feedforward of rate and acceleration, shaped commands, anti-windup. Encoder "

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/control/controllers/antenna_controller.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
@@ -36,11 +37,77 @@ double pressure_slope(const Controller& controller) {
   return compensator_response(controller, low).pressure.imag() / low;
 }
 
+double spectral_radius(const Eigen::MatrixXd& matrix) {
+  return matrix.rows() == 0 ? 0.0 : numerics::eigenvalues(matrix).cwiseAbs().maxCoeff();
+}
+
+// Inputs in the order of Input.
+plant::StateSpace in_ports(const plant::StateSpace& sampled, bool torque) {
+  std::vector<std::string> ports{"tachometer", "encoder", "rate_disturbance"};
+  if (torque) ports.emplace_back("motor_torque");
+  return plant::subsystem(sampled, ports, {"valve_demand"});
+}
+
+// The same of a state space: a rate that is commanded is taken off the tachometer's.
+plant::StateSpace about_motion(const plant::StateSpace& controller, double sample_time) {
+  plant::validate(controller);
+  const auto reads = [&](const char* name) {
+    return std::ranges::count(controller.inputs, name) > 0;
+  };
+  const bool known = std::ranges::all_of(controller.inputs, [](const std::string& name) {
+    return name == "tachometer" || name == "encoder" || name == "motor_torque";
+  });
+  if (!known || !reads("encoder") || controller.outputs.size() != 1 ||
+      controller.outputs.front() != "valve_demand") {
+    throw InvalidInput(fmt::format(
+        "antenna controller: expected inputs encoder, and tachometer or motor_torque, and the "
+        "output valve_demand, found {} -> {}",
+        fmt::join(controller.inputs, ", "), fmt::join(controller.outputs, ", ")));
+  }
+  if (!(std::abs(controller.sample_time - sample_time) <= 1e-9 * sample_time)) {
+    throw InvalidInput(
+        fmt::format("antenna controller: expected a controller sampled every {} s, found {} s",
+                    sample_time, controller.sample_time));
+  }
+  const double radius = spectral_radius(controller.a);
+  if (!(radius < 1.0)) {
+    throw InvalidInput(fmt::format(
+        "antenna controller: expected a state space that is stable by itself, found a pole of "
+        "magnitude {:.9g}",
+        radius));
+  }
+  plant::StateSpace system = controller;
+  const Eigen::Index states = system.a.rows();
+  const Eigen::Index count = reads("motor_torque") ? 4 : 3;
+  system.b = Eigen::MatrixXd::Zero(states, count);
+  system.d = Eigen::MatrixXd::Zero(1, count);
+  const auto take = [&](Input into, const char* name, double sign) {
+    const auto found = std::ranges::find(controller.inputs, name);
+    if (found == controller.inputs.end()) return;
+    const auto column = static_cast<Eigen::Index>(found - controller.inputs.begin());
+    system.b.col(into) = sign * controller.b.col(column);
+    system.d(0, into) = sign * controller.d(0, column);
+  };
+  take(tachometer, "tachometer", 1.0);
+  take(angle_error, "encoder", 1.0);
+  take(rate_feedforward, "tachometer", -1.0);
+  if (reads("motor_torque")) take(torque, "motor_torque", 1.0);
+  return system;
+}
+
 }  // namespace
 
-Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const Controller& controller,
-                              double delay) {
-  validate(controller);
+bool feeds_torque_back(const FeedbackController& controller) {
+  if (const auto* loops = std::get_if<Controller>(&controller)) {
+    return loops->structure.has(LoopPath::pressure) || loops->structure.has(LoopPath::compliance);
+  }
+  return std::ranges::count(std::get<plant::StateSpace>(controller).inputs, "motor_torque") > 0;
+}
+
+Feedforward plant_feedforward(const plant::AntennaPlant& antenna,
+                              const FeedbackController& controller, double delay) {
+  const auto* loops = std::get_if<Controller>(&controller);
+  if (loops != nullptr) validate(*loops);
   if (!(delay >= 0.0) || !std::isfinite(delay)) {
     throw InvalidInput(
         fmt::format("plant_feedforward: expected a delay of 0 or more, found {} s", delay));
@@ -54,49 +121,55 @@ Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const Controll
   result.rate_to_valve_command = opening;
   result.acceleration_to_valve_command =
       (drive.leakage_rate * inertia + drive.viscous_friction) / drive.oil_stiffness +
-      opening * (2.0 * drive.valve_damping / drive.valve_corner + delay) +
-      pressure_slope(controller) * drive.viscous_friction;
+      opening * (2.0 * drive.valve_damping / drive.valve_corner + delay);
+  if (loops != nullptr) {
+    result.acceleration_to_valve_command += pressure_slope(*loops) * drive.viscous_friction;
+  } else {
+    result.rate_to_motor_torque = drive.viscous_friction;
+    result.acceleration_to_motor_torque = inertia;
+  }
   return result;
 }
 
-AntennaController::AntennaController(const Controller& controller, double sample_time,
+AntennaController::AntennaController(const FeedbackController& controller, double sample_time,
                                      const AntennaControllerOptions& options)
-    : sample_time_(sample_time), options_(options), outputs_{"valve_command"} {
+    : sample_time_(sample_time),
+      options_(options),
+      reads_torque_(feeds_torque_back(controller)),
+      outputs_{"valve_command"} {
   const auto& forward = options.feedforward;
   if (!(options.command_limit > 0.0) ||
       !std::isfinite(forward.rate_to_rate_command + forward.acceleration_to_rate_command +
-                     forward.rate_to_valve_command + forward.acceleration_to_valve_command)) {
+                     forward.rate_to_valve_command + forward.acceleration_to_valve_command +
+                     forward.rate_to_motor_torque + forward.acceleration_to_motor_torque)) {
     throw InvalidInput(
         fmt::format("antenna controller: expected a command limit above 0 and finite feedforward, "
                     "found a limit of {} rad/s",
                     options.command_limit));
   }
-  const plant::StateSpace sampled = sampled_controller(controller, sample_time);
-  reads_torque_ = controller.structure.has(LoopPath::pressure) ||
-                  controller.structure.has(LoopPath::compliance);
-  std::vector<std::string> ports{"tachometer", "encoder", "rate_disturbance"};
   inputs_ = {"tachometer", "encoder"};
-  if (reads_torque_) {
-    ports.emplace_back("motor_torque");
-    inputs_.emplace_back("motor_torque");
-  }
+  if (reads_torque_) inputs_.emplace_back("motor_torque");
   for (const char* reference : {"reference", "reference_rate", "reference_acceleration"}) {
     inputs_.emplace_back(reference);
   }
-  const auto seen = plant::subsystem(sampled, ports, {"valve_demand"});
+  const auto* loops = std::get_if<Controller>(&controller);
+  const plant::StateSpace seen =
+      loops != nullptr ? in_ports(sampled_controller(*loops, sample_time), reads_torque_)
+                       : about_motion(std::get<plant::StateSpace>(controller), sample_time);
   a_ = seen.a;
   b_ = seen.b;
   c_ = seen.c;
   d_ = seen.d;
-  const Index states = a_.rows();
-  initial_ = state_ = next_ = Eigen::VectorXd::Zero(states);
-  back_calculation_ = Eigen::VectorXd::Zero(states);
-  const auto radius = [&](const Eigen::VectorXd& back) {
-    return states == 0 ? 0.0 : numerics::eigenvalues(a_ - back * c_).cwiseAbs().maxCoeff();
-  };
+  initial_ = state_ = next_ = Eigen::VectorXd::Zero(a_.rows());
+  back_calculation_ = Eigen::VectorXd::Zero(a_.rows());
+  if (loops != nullptr && options.anti_windup) prevent_windup(*loops);
+}
+
+void AntennaController::prevent_windup(const Controller& controller) {
+  const auto radius = [&](const Eigen::VectorXd& back) { return spectral_radius(a_ - back * c_); };
   // A pole within rounding of 1: a double one is known to the root of the working precision.
   constexpr double integrates = 1.0 - 1e-7;
-  if (!options.anti_windup || radius(back_calculation_) < integrates) return;
+  if (radius(back_calculation_) < integrates) return;
   const Eigen::VectorXd whole = -b_.col(angle_error) / (path_gain(controller, LoopPath::rate) *
                                                         path_gain(controller, LoopPath::position));
   constexpr int max_halvings = 10;
@@ -108,6 +181,11 @@ AntennaController::AntennaController(const Controller& controller, double sample
       return;
     }
   }
+}
+
+double AntennaController::expected_torque(double rate, double acceleration) const {
+  const auto& forward = options_.feedforward;
+  return forward.rate_to_motor_torque * rate + forward.acceleration_to_motor_torque * acceleration;
 }
 
 void AntennaController::update(double /*time*/, const Eigen::Ref<const Eigen::VectorXd>& measured,
@@ -128,8 +206,9 @@ void AntennaController::update(double /*time*/, const Eigen::Ref<const Eigen::Ve
   next_ += b_.col(tachometer) * measured[measured_rate] + b_.col(angle_error) * error +
            b_.col(rate_feedforward) * added;
   if (reads_torque_) {
-    wanted += d_[torque] * measured[measured_torque];
-    next_ += b_.col(torque) * measured[measured_torque];
+    const double excess = measured[measured_torque] - expected_torque(rate, acceleration);
+    wanted += d_[torque] * excess;
+    next_ += b_.col(torque) * excess;
   }
   commands[0] = std::clamp(wanted, -options_.command_limit, options_.command_limit);
   next_ -= back_calculation_ * (wanted - commands[0]);
@@ -143,7 +222,7 @@ double AntennaController::start_from(const SteadyMotion& motion) {
   Eigen::VectorXd given = Eigen::VectorXd::Zero(b_.cols());
   given[tachometer] = motion.tachometer;
   given[rate_feedforward] = forward.rate_to_rate_command * motion.tachometer;
-  if (reads_torque_) given[torque] = motion.motor_torque;
+  if (reads_torque_) given[torque] = motion.motor_torque - expected_torque(motion.tachometer, 0.0);
   Eigen::MatrixXd equations(states + 1, states + 1);
   equations.topLeftCorner(states, states) = Eigen::MatrixXd::Identity(states, states) - a_;
   equations.topRightCorner(states, 1) = -b_.col(angle_error);

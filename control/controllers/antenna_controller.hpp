@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,13 +13,25 @@
 
 namespace boresight::control {
 
-/// Feedforward gains from the commanded motion to rate command and valve command, in addition to
-/// the feedback of errors. All zero: no feedforward.
+/// A controller for the antenna's computer: loops with gains, or any linear controller as a state
+/// space that is sampled already (inputs among tachometer, encoder and motor_torque; output
+/// valve_demand).
+using FeedbackController = std::variant<Controller, plant::StateSpace>;
+
+/// True if the controller reads the motor torque.
+bool feeds_torque_back(const FeedbackController& controller);
+
+/// Feedforward gains from the commanded motion to rate command, valve command and expected motor
+/// torque, in addition to the feedback of errors. All zero: no feedforward.
 struct Feedforward {
   double rate_to_rate_command = 0.0;           // 1
   double acceleration_to_rate_command = 0.0;   // s
   double rate_to_valve_command = 0.0;          // 1
   double acceleration_to_valve_command = 0.0;  // s
+  /// The torque that the motion takes. A state-space controller receives the measured torque less
+  /// this one; the paths of a Controller receive the measured torque.
+  double rate_to_motor_torque = 0.0;          // N m s/rad
+  double acceleration_to_motor_torque = 0.0;  // kg m2
 };
 
 /// Feedforward with which a plant follows its command without feedback error, to second order of
@@ -31,10 +44,11 @@ struct Feedforward {
 ///   tachometer w - a/(its corner), the rate command at which the rate error is 0.
 /// Each is the inverse of the plant's response at low frequencies, as in M. Tomizuka, Zero phase
 /// error tracking algorithm, J. Dyn. Syst. Meas. Control 109, 1987, for slow commands. Dry friction
-/// is not included.
+/// is not included. A state-space controller gets no pressure path's output, but the torque T as
+/// that which the motion takes.
 /// @throws InvalidInput as control::validate, and for a delay that is negative or not finite.
-Feedforward plant_feedforward(const plant::AntennaPlant& plant, const Controller& controller,
-                              double delay);
+Feedforward plant_feedforward(const plant::AntennaPlant& plant,
+                              const FeedbackController& controller, double delay);
 
 /// The steady motion at which a controller takes over.
 struct SteadyMotion {
@@ -65,11 +79,16 @@ struct AntennaControllerOptions {
 /// Kinnaert, J.-L. Henrotte, Conditioning technique, Automatica 23, 1987). One injection unwinds
 /// both integrators: at the limit the states of a PI-PI controller follow 2 s^2 + (wi + wip) s + wi
 /// wip = 0 instead of s^2 = 0. The injection is halved until the states at the limit are stable.
+///
+/// A state-space controller regulates the measurements about the commanded motion: encoder less
+/// reference, tachometer less the rate command's feedforward, torque less that of the motion. It
+/// must be stable by itself, as it has no anti-windup.
 class AntennaController final : public plant::SampledController {
  public:
   /// @throws InvalidInput as sampled_controller, for a command limit that is not above 0, and
-  /// feedforward that is not finite.
-  AntennaController(const Controller& controller, double sample_time,
+  /// feedforward that is not finite; for a state-space controller with another sample time, without
+  /// an encoder, with other ports or not stable by itself.
+  AntennaController(const FeedbackController& controller, double sample_time,
                     const AntennaControllerOptions& options = {});
 
   double sample_time() const override { return sample_time_; }
@@ -92,6 +111,9 @@ class AntennaController final : public plant::SampledController {
  private:
   double sample_time_;
   AntennaControllerOptions options_;
+  double expected_torque(double rate, double acceleration) const;
+  void prevent_windup(const Controller& controller);
+
   bool reads_torque_ = false;
   std::vector<std::string> inputs_, outputs_;
   // Inputs: tachometer, encoder less reference, rate command's feedforward, torque.

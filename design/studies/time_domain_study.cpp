@@ -38,14 +38,14 @@ bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
 }
 
 SimulatedLoop loop_of(const Mission& mission, const TrackingProblem& problem,
-                      const control::Controller& controller, double encoder_resolution) {
+                      const control::FeedbackController& controller, double encoder_resolution) {
   auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), controller);
   loop.encoder_resolution = encoder_resolution * problem.gear_ratio;
   return loop;
 }
 
 SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
-                       const control::Controller& controller, TimeDomainStudy& section) {
+                       const control::FeedbackController& controller, TimeDomainStudy& section) {
   auto loop = loop_of(mission, problem, controller, section.encoder_resolution);
   section.sample_time = loop.sample_time;
   section.result = verify_in_time(problem, loop, section.options);
@@ -79,7 +79,7 @@ void count_budgets(const Mission& mission, double wind_speed, Assessment& assess
 }
 
 TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
-                       const control::Controller& controller, TimeDomainStudy section,
+                       const control::FeedbackController& controller, TimeDomainStudy section,
                        int records = SimulatedRmsOptions{}.records) {
   const SimulatedLoop loop = simulate(mission, problem, controller, section);
   const WindResult& wind = section.result.wind;
@@ -241,16 +241,20 @@ std::optional<NonlinearVerification> run_in_time_domain(
   return std::move(section.result);
 }
 
+std::optional<SimulatedCandidate> compare_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem, std::string name,
+    const control::FeedbackController& controller, const NonlinearVerificationOptions& options) {
+  if (!mission.antenna.nonlinear) return std::nullopt;
+  TimeDomainStudy section = plan(mission, problem, name, options.seeds.front(), options.threads);
+  section.options = options;
+  section = verify(mission, problem, controller, std::move(section));
+  return SimulatedCandidate{std::move(name), std::move(section.result), std::move(section.rms)};
+}
+
 std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options) {
-  if (!mission.antenna.nonlinear) return std::nullopt;
-  TimeDomainStudy section =
-      plan(mission, problem, controller.name, options.seeds.front(), options.threads);
-  section.options = options;
-  section = verify(mission, problem, controller.controller, std::move(section));
-  return TimeDomainStudy::Candidate{controller.name, std::move(section.result),
-                                    std::move(section.rms)};
+  return compare_in_time_domain(mission, problem, controller.name, controller.controller, options);
 }
 
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

@@ -120,6 +120,10 @@ std::optional<NonlinearVerification> run_in_time_domain(
 std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options);
+/// Simulates any controller, of that name, by those options.
+std::optional<SimulatedCandidate> compare_in_time_domain(
+    const Mission& mission, const TrackingProblem& problem, std::string name,
+    const control::FeedbackController& controller, const NonlinearVerificationOptions& options);
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads);

@@ -3,11 +3,13 @@
 #include <limits>
 #include <span>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/verification/limit_cycle_search.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -159,10 +161,8 @@ class WindStudy {
     result.encoder_rms = whole.encoder_rms;
     result.at_command_limit = whole.at_command_limit;
     result.trace = first_trace();
-    control::LoopEvaluator evaluator = make_evaluator(problem_);
-    result.predicted_rms =
-        std::sqrt(evaluator.evaluate(loop_.controller, false).boresight_variance()) /
-        loop_.gear_ratio;
+    result.predicted_rms = predicted_rms(problem_, loop_.controller) / loop_.gear_ratio;
+    result.static_error = static_boresight_error(problem_, loop_.controller);
     if (!options_.explain) {
       result.linear_rms = result.continuous_rms = result.realisation_error = result.sampling = nan;
       result.interaction = nan;
@@ -292,12 +292,14 @@ SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& o
   return result;
 }
 
-void check(const NonlinearVerificationOptions& options) {
+void check(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
   const auto require = [](bool satisfied, const char* expected, double found) {
     if (satisfied) return;
     throw InvalidInput(fmt::format("verify_in_time: expected {}, found {}", expected, found));
   };
   require(!options.seeds.empty(), "at least one seed", 0.0);
+  require(!options.explain || std::holds_alternative<control::Controller>(loop.controller),
+          "loops with gains to explain, not a state space sampled every s", loop.sample_time);
   require(options.wind_duration >= 1.0, "a wind_duration of at least 1 s", options.wind_duration);
   require(options.settling >= 0.0, "a settling time of at least 0 s", options.settling);
   require(options.limit_cycle_duration >= 1.0, "a limit_cycle_duration of at least 1 s",
@@ -319,7 +321,7 @@ ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& lo
   NonlinearVerificationOptions one = options;
   one.seeds.resize(std::min<std::size_t>(one.seeds.size(), 1));
   one.explain = false;
-  check(one);
+  check(loop, one);
   WindStudy wind(problem, loop, one);
   wind.run(0);
   return wind.first_trace();
@@ -327,7 +329,7 @@ ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& lo
 
 void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
                      const NonlinearVerificationOptions& options, NonlinearVerification& known) {
-  check(options);
+  check(loop, options);
   WindStudy wind(problem, loop, options);
   if (options.second_integrator) known.integrators.emplace();
   // The longest first.
@@ -343,7 +345,7 @@ void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
 
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,
                                      const NonlinearVerificationOptions& options) {
-  check(options);
+  check(loop, options);
   WindStudy wind(problem, loop, options);
   NonlinearVerification result;
   std::vector<double> rates{0.0};

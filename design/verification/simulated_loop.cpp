@@ -141,11 +141,6 @@ std::vector<plant::Sensor> sensors(const SimulatedLoop& loop, bool reads_torque,
   return result;
 }
 
-bool feeds_torque_back(const control::Controller& controller) {
-  return controller.structure.has(control::LoopPath::pressure) ||
-         controller.structure.has(control::LoopPath::compliance);
-}
-
 void finish(LoopRun& run, const SimulatedLoop& loop, double interval) {
   const Index steps = run.result.values.rows();
   run.reference.conservativeResize(steps);
@@ -201,7 +196,7 @@ std::string_view to_string(RunStatus status) {
 
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
-                                  const control::Controller& controller) {
+                                  const control::FeedbackController& controller) {
   SimulatedLoop loop;
   loop.antenna = antenna;
   loop.linear = problem.plant;
@@ -307,8 +302,8 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
       course.wind_torque;
   plan.controller = &controller;
   plan.computation_delay = loop.sample_time;
-  plan.sensors = sensors(loop, feeds_torque_back(loop.controller), loop.sample_time, options,
-                         !is_off(options, Influence::quantisation));
+  plan.sensors = sensors(loop, control::feeds_torque_back(loop.controller), loop.sample_time,
+                         options, !is_off(options, Influence::quantisation));
   plan.seed = options.seed;
   plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;
@@ -353,7 +348,8 @@ LoopRun run_linear_loop(const SimulatedLoop& loop, const ReferenceTrajectory& co
   }
   plan.controller = &controller;
   plan.computation_delay = delay;
-  plan.sensors = sensors(loop, feeds_torque_back(loop.controller), sample_time, options, false);
+  plan.sensors =
+      sensors(loop, control::feeds_torque_back(loop.controller), sample_time, options, false);
   plan.seed = options.seed;
   plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;

@@ -9,8 +9,8 @@
 
 #include <Eigen/Core>
 
+#include <boresight/control/controllers/antenna_controller.hpp>
 #include <boresight/control/controllers/command_preprocessor.hpp>
-#include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
 #include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
 #include <boresight/plant/nonlinear/simulation.hpp>
@@ -24,7 +24,7 @@ struct SimulatedLoop {
   /// The linear plant of the design. Its viscous friction replaces the friction curve when that is
   /// switched off, and feedforward is computed from it.
   plant::AntennaPlant linear;
-  control::Controller controller;
+  control::FeedbackController controller;
   double gear_ratio = 1.0;
   double sample_time = 0.02;           // s
   control::SensorNoise noise;          // densities, as in the linear design
@@ -39,7 +39,7 @@ struct SimulatedLoop {
 /// Without converter steps.
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
-                                  const control::Controller& controller);
+                                  const control::FeedbackController& controller);
 
 /// Effects that the linear design neglects; each can be switched off separately:
 ///   friction       the curve and its bristles; off: the linear plant's viscous friction
@@ -127,7 +127,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
 /// `finer` = 1 is the loop as built; large numbers approach the continuous loop. Starts at rest:
 /// only the wind and the noise of the trajectory act, which determine the whole error of a linear
 /// loop. For one seed the noise is the same only for the same `finer`. @throws InvalidInput as
-/// run_loop, and for finer below 1.
+/// run_loop, and for finer below 1 or a state-space controller sampled finer than it is.
 LoopRun run_linear_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course, int finer = 1,
                         const LoopRunOptions& options = {});
 

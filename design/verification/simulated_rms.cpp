@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/design/problem/nonlinear_effect.hpp>
 #include <boresight/design/verification/integrator_agreement.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -31,12 +31,7 @@ ArrayXd line_gains(const TrackingProblem& problem, const SimulatedLoop& loop, In
   const Index lines = (samples - 1) / 2;
   const double step = two_pi / (loop.sample_time * static_cast<double>(samples));
   const ArrayXd frequency = step * ArrayXd::LinSpaced(lines, 1.0, static_cast<double>(lines));
-  const control::LoopEvaluator evaluator(problem.plant, frequency,
-                                         {.delay = problem.delay,
-                                          .noise = problem.noise,
-                                          .wind_spectrum = ArrayXd::Zero(lines),
-                                          .band = problem.rms_band});
-  return evaluator.wind_transmission(loop.controller);
+  return wind_transmission(problem, loop.controller, frequency);
 }
 
 double mean_square(const VectorXd& errors, Index counted) {

@@ -35,6 +35,12 @@ void describe_prediction(Visitor& v, const design::WindResult& wind) {
            "Of the linear plant, by the spectrum.", positive);
 }
 
+void describe_static_error(Visitor& v, const design::WindResult& wind) {
+  v.number("static_error", wind.static_error, unit::millidegree,
+           "Boresight error at rest in the mean wind, by the linear loop: static flexure included.",
+           positive);
+}
+
 void describe_wind(Visitor& v, const design::WindResult& wind,
                    const design::NonlinearVerificationOptions& options) {
   describe_status(v, wind.status);
@@ -45,6 +51,7 @@ void describe_wind(Visitor& v, const design::WindResult& wind,
   v.number("encoder_rms", wind.encoder_rms, unit::millidegree, "The same of the encoder.",
            positive);
   describe_prediction(v, wind);
+  describe_static_error(v, wind);
   v.number("realisation_error", wind.realisation_error, unit::millidegree,
            "Rms of the linear loop on this record less the prediction.");
   v.number("sampling", wind.sampling, unit::millidegree,
@@ -183,6 +190,7 @@ void describe(Visitor& v, const design::NonlinearVerification& run) {
   v.text_or_null("message", run.wind.message, no_figures);
   describe_rms(v, run.wind);
   describe_prediction(v, run.wind);
+  describe_static_error(v, run.wind);
   describe_limit_cycles(v, run.limit_cycles);
   describe_reversal(v, run.reversal);
 }

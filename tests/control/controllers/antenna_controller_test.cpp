@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "reference_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/control/controllers/antenna_controller.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::control {
@@ -199,6 +201,79 @@ TEST(AntennaController, RefusesWhatItCannotDo) {
               HasSubstr("sample time above 0"));
   EXPECT_THAT(message([] { plant_feedforward(reference::antenna(), pi_controller(), -1.0); }),
               HasSubstr("expected a delay of 0 or more, found -1"));
+}
+
+// Without integrals, as a state space must be stable by itself.
+Controller leaky_controller() {
+  return {LoopStructure::named("FULL+L+C"), {3.0, 8.0, 40.0, 0.5, 30.0, 5.0, 1.5, 15.0, 0.01, 0.3}};
+}
+
+plant::StateSpace as_state_space(const Controller& controller) {
+  return plant::subsystem(sampled_controller(controller, sample_time),
+                          {"motor_torque", "encoder", "tachometer"}, {"valve_demand"});
+}
+
+// The loops and the same controller as a state space: in motion too, as the commanded rate is taken
+// off the tachometer's.
+TEST(AntennaController, AsAStateSpaceItIsTheSameController) {
+  AntennaControllerOptions options;
+  options.feedforward = {1.0, -0.02, 1.1, 0.3};
+  AntennaController loops(leaky_controller(), sample_time, options);
+  AntennaController states(as_state_space(leaky_controller()), sample_time, options);
+  EXPECT_EQ(states.inputs(), loops.inputs());
+  const SteadyMotion motion{0.3, 0.2, 12.0};
+  const double lead = loops.start_from(motion);
+  EXPECT_NEAR(states.start_from(motion), lead, 1e-9 * std::abs(lead));
+  reference::RandomNumbers random(5);
+  VectorXd expected(1), found(1);
+  for (int k = 0; k < 200; ++k) {
+    VectorXd measured(6);
+    for (double& value : measured) value = random.uniform(-1.0, 1.0);
+    loops.update(0.0, measured, expected);
+    states.update(0.0, measured, found);
+    ASSERT_NEAR(found[0], expected[0], 1e-9 * (1.0 + std::abs(expected[0]))) << k;
+  }
+}
+
+TEST(AntennaController, AStateSpaceSeesTheTorqueBeyondThatOfItsMotion) {
+  AntennaControllerOptions options;
+  options.feedforward.rate_to_motor_torque = 5.0;
+  options.feedforward.acceleration_to_motor_torque = 0.4;
+  AntennaController with(as_state_space(leaky_controller()), sample_time, options);
+  AntennaController without(as_state_space(leaky_controller()), sample_time);
+  VectorXd found(1), expected(1);
+  with.update(0.0, vector({0.0, 0.0, 7.0 + 5.0 * 2.0 + 0.4 * 3.0, 0.0, 2.0, 3.0}), found);
+  without.update(0.0, vector({0.0, 0.0, 7.0, 0.0, 2.0, 3.0}), expected);
+  EXPECT_NE(expected[0], 0.0);
+  EXPECT_NEAR(found[0], expected[0], 1e-12 * std::abs(expected[0]));
+}
+
+TEST(PlantFeedforward, GivesAStateSpaceTheTorqueOfTheMotion) {
+  const auto plant = reference::antenna();
+  const auto loops = plant_feedforward(plant, pi_controller(), 0.03);
+  const auto states = plant_feedforward(plant, as_state_space(leaky_controller()), 0.03);
+  EXPECT_EQ(loops.acceleration_to_motor_torque, 0.0);
+  EXPECT_EQ(states.acceleration_to_motor_torque, plant::reflected_inertia(plant));
+  EXPECT_EQ(states.rate_to_motor_torque, plant.drive.viscous_friction);
+  EXPECT_EQ(states.acceleration_to_valve_command, loops.acceleration_to_valve_command);
+}
+
+TEST(AntennaController, RefusesAStateSpaceThatItCannotRun) {
+  const auto refused = [](const plant::StateSpace& controller, const char* why) {
+    EXPECT_THAT(reference::Call([&] { AntennaController(controller, sample_time); }),
+                testing::ThrowsMessage<InvalidInput>(HasSubstr(why)));
+  };
+  const auto good = as_state_space(leaky_controller());
+  auto other = good;
+  other.sample_time = 0.01;
+  refused(other, "sampled every 0.02 s, found 0.01 s");
+  refused(plant::renamed(good, {{"encoder", "resolver"}}), "expected inputs encoder");
+  refused(plant::renamed(good, {{"valve_demand", "rate"}}), "the output valve_demand");
+  refused(plant::subsystem(good, {"tachometer", "motor_torque"}, {"valve_demand"}),
+          "expected inputs encoder");
+  refused(plant::subsystem(sampled_controller(pi_controller(), sample_time),
+                           {"tachometer", "encoder"}, {"valve_demand"}),
+          "stable by itself");
 }
 
 }  // namespace

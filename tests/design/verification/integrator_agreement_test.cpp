@@ -22,9 +22,10 @@ SimulatedLoop reference_loop() {
   auto details = reference::drive_details();
   details.preload_torque = 20.0;
   details.backlash = 0.1;
-  auto loop = make_simulated_loop(
-      reference::tracking_problem(), reference::nonlinear_antenna(details),
-      {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
+  auto loop =
+      make_simulated_loop(reference::tracking_problem(), reference::nonlinear_antenna(details),
+                          control::Controller{control::LoopStructure::pi_with_lag(),
+                                              {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
   loop.encoder_resolution = 0.34 * mdeg * loop.gear_ratio;
   return loop;
 }
@@ -129,7 +130,7 @@ TEST(IntegratorAgreement, RunsWithoutAUsableEndAreStatedResults) {
   EXPECT_TRUE(std::isnan(failed.ratio()));
   EXPECT_FALSE(agree(failed));
   // Nothing to compare where the first run is lost already.
-  loop.controller.gains[4] = 5.0;  // the position integral: unstable
+  std::get<control::Controller>(loop.controller).gains[4] = 5.0;  // the position integral: unstable
   const auto lost = integrator_agreement(loop, windy_course(loop, 60.0), settling_for(1.0));
   EXPECT_EQ(lost.status, RunStatus::lost);
   EXPECT_EQ(lost.cvodes_steps, 0);

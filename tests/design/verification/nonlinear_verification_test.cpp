@@ -6,6 +6,7 @@
 #include "design/limit_cycle_loop.hpp"
 #include "design/reference_problem.hpp"
 #include "reference_nonlinear_antenna.hpp"
+#include "refused_call.hpp"
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -275,6 +276,18 @@ TEST(NonlinearVerification, RunsWithoutAUsableEndAreStatedResults) {
   EXPECT_EQ(weak.limit_cycles[1].status, RunStatus::failed);
   ASSERT_TRUE(weak.slew);
   EXPECT_FALSE(weak.slew->achievable_limits);
+}
+
+TEST(NonlinearVerification, ExplainsLoopsOnly) {
+  auto loop = reference_loop();
+  loop.controller = plant::static_gain(Eigen::RowVector2d(-0.2, -1.0), {"tachometer", "encoder"},
+                                       {"valve_demand"});
+  std::get<plant::StateSpace>(loop.controller).sample_time = loop.sample_time;
+  auto wanted = options();
+  wanted.explain = true;
+  EXPECT_THAT(
+      reference::Call([&] { verify_in_time(reference::tracking_problem(), loop, wanted); }),
+      testing::ThrowsMessage<InvalidInput>(HasSubstr("expected loops with gains to explain")));
 }
 
 TEST(NonlinearVerification, HoldsStillWithinTheRmsOfASine) {

@@ -8,6 +8,7 @@
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
 
 namespace boresight::design {
@@ -113,11 +114,34 @@ TEST(SimulatedLoop, NoiseIsThatOfTheExactCovariance) {
   noise.measurement_variance = {{"encoder", std::pow(loop.noise.encoder_rms, 2)},
                                 {"tachometer", std::pow(loop.noise.tachometer_rms, 2)},
                                 {"motor_torque", std::pow(loop.noise.torque_rms, 2)}};
-  const auto exact = control::sampled_loop_rms(
-      control::sampled_loop(plant::to_state_space(loop.linear), loop.controller, loop.sample_time),
-      noise, {"beam"});
+  const auto exact =
+      control::sampled_loop_rms(control::sampled_loop(plant::to_state_space(loop.linear),
+                                                      pressure_controller(), loop.sample_time),
+                                noise, {"beam"});
   // 400 s of a signal some 1 Hz wide: 4 % of scatter.
   EXPECT_NEAR(rms(run.boresight_error) * loop.gear_ratio / exact.at_samples[0], 1.0, 0.12);
+}
+
+// Without integrals; on the nonlinear antenna in motion, quantisation and all.
+TEST(SimulatedLoop, RunsAStateSpaceAsTheLoopsThatItIsOf) {
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const auto loop = reference_loop(loops);
+  auto same = loop;
+  same.controller = plant::subsystem(control::sampled_controller(loops, loop.sample_time),
+                                     {"tachometer", "encoder"}, {"valve_demand"});
+  const auto course = windy_course(loop, 30.0, 2.0, 1.0);
+  const LoopRun expected = run_loop(loop, course), found = run_loop(same, course);
+  ASSERT_EQ(expected.status, RunStatus::complete) << expected.message;
+  ASSERT_EQ(found.status, RunStatus::complete) << found.message;
+  EXPECT_LT((found.boresight_error - expected.boresight_error).cwiseAbs().maxCoeff(),
+            1e-3 * rms(expected.boresight_error));
+  const LoopRun linear = run_linear_loop(same, course);
+  EXPECT_LT((linear.boresight_error - run_linear_loop(loop, course).boresight_error)
+                .cwiseAbs()
+                .maxCoeff(),
+            1e-6 * rms(linear.boresight_error));
+  EXPECT_THROW(run_linear_loop(same, course, 2), InvalidInput);
 }
 
 TEST(SimulatedLoop, FinerSamplingTendsToTheContinuousLoop) {

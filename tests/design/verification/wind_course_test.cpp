@@ -16,9 +16,10 @@ TEST(WindCourses, AreTheSynthesisedTorqueOfTheirSeedWithTheMean) {
   for (const auto model : {plant::WindModel::coherence, plant::WindModel::uniform}) {
     mission.wind.model = model;
     const TrackingProblem problem = tracking_problem(mission);
-    const SimulatedLoop loop = make_simulated_loop(
-        problem, plant::nonlinear_antenna(mission.antenna),
-        {control::LoopStructure::pi_with_lag(), {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
+    const SimulatedLoop loop =
+        make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna),
+                            control::Controller{control::LoopStructure::pi_with_lag(),
+                                                {0.1587, 0.42067, 2.6279, 10.258, 0.23531}});
     constexpr double rate = 2.0, duration = 20.0;
     const WindCourses courses(problem, loop, rate, duration);
     const ReferenceTrajectory course = courses.course(7);

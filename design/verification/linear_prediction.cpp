@@ -1,0 +1,51 @@
+#include <cmath>
+
+#include <boresight/control/loops/loop_evaluator.hpp>
+#include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/design/benchmark/rejection_response.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
+#include <boresight/plant/wind/wind.hpp>
+
+namespace boresight::design {
+
+Eigen::ArrayXd wind_transmission(const TrackingProblem& problem,
+                                 const control::FeedbackController& controller,
+                                 const Eigen::ArrayXd& frequency) {
+  if (const auto* loops = std::get_if<control::Controller>(&controller)) {
+    const control::LoopEvaluator evaluator(problem.plant, frequency,
+                                           {.delay = problem.delay,
+                                            .noise = problem.noise,
+                                            .wind_spectrum = Eigen::ArrayXd::Zero(frequency.size()),
+                                            .band = problem.rms_band});
+    return evaluator.wind_transmission(*loops);
+  }
+  control::ControlledAntenna loop(problem.plant, std::get<plant::StateSpace>(controller),
+                                  problem.delay);
+  return frequency.unaryExpr([&](double w) { return std::norm(loop.at(w).boresight_by_wind); });
+}
+
+double predicted_rms(const TrackingProblem& problem,
+                     const control::FeedbackController& controller) {
+  if (const auto* loops = std::get_if<control::Controller>(&controller)) {
+    control::LoopEvaluator evaluator = make_evaluator(problem);
+    return std::sqrt(evaluator.evaluate(*loops, false).boresight_variance());
+  }
+  const RejectionResponse response =
+      rejection_response(problem, std::get<plant::StateSpace>(controller));
+  const Eigen::ArrayXd wind = response.wind_weight * response.boresight_by_wind_square *
+                              motor_wind_spectrum(problem, response.frequency);
+  return std::sqrt(wind.sum() + response.noise_variance);
+}
+
+double static_boresight_error(const TrackingProblem& problem,
+                              const control::FeedbackController& controller) {
+  // rad/s, as many as the evaluator requires. Lower ones lose digits: the free antenna's angle in a
+  // steady torque grows without bound.
+  const Eigen::ArrayXd far_below = Eigen::Array3d(3e-5, 6e-5, 1.2e-4);
+  const double torque =
+      plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
+  return std::sqrt(wind_transmission(problem, controller, far_below)[0]) * std::abs(torque) /
+         problem.gear_ratio;
+}
+
+}  // namespace boresight::design

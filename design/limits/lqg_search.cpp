@@ -3,10 +3,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include <boresight/design/limits/controller_reduction.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
@@ -21,20 +24,22 @@ constexpr double reserve = 1e-3;
 constexpr double weight_tolerance = 0.01;
 constexpr double weight_step = 0.8;
 constexpr int max_command_weights = 30;
-constexpr int most_compass_points = 40;
+constexpr int most_compass_points = 60;
+// What a controller of lower order may cost: its rms over that of the full order.
+constexpr double reduced_rms = 1.01;
 
-// The plant with an input and an output for each spring: an error of the deflection that it feels,
-// the deflection.
-struct SpringPorts {
+// The plant with what designs add: for each spring an error of the deflection that it feels and the
+// deflection; friction as a torque that changes slowly.
+struct DesignPorts {
   plant::StateSpace plant;
   std::vector<std::string> errors, deflections;
-  std::string friction;  // a torque at the motor
+  std::string friction;  // white noise that makes the torque's variance 1; the torque's state
 };
 
-SpringPorts with_spring_ports(const SampledSetting& setting) {
+DesignPorts with_design_ports(const SampledSetting& setting, double friction_corner) {
   const plant::Structure& structure = setting.plant().structure;
   const plant::Drive& drive = setting.plant().drive;
-  SpringPorts result{setting.problem().plant, {}, {}, "friction_torque"};
+  DesignPorts result{setting.problem().plant, {}, {}, "friction_torque"};
   plant::StateSpace& system = result.plant;
   const auto state = [&](const std::string& name) {
     return static_cast<Eigen::Index>(std::ranges::find(system.states, name) -
@@ -64,36 +69,46 @@ SpringPorts with_spring_ports(const SampledSetting& setting) {
     add("bull_gear", fmt::format("mode_{}", i + 1), -mode.stiffness / structure.bull_gear_inertia,
         mode.stiffness / mode.inertia);
   }
-  const Eigen::Index inputs = system.b.cols();
-  system.b.conservativeResize(Eigen::NoChange, inputs + 1);
-  system.b.col(inputs).setZero();
-  system.b(state("motor_rate"), inputs) = 1.0 / drive.motor_inertia;
+  const Eigen::Index states = system.a.rows(), inputs = system.b.cols();
+  system.a.conservativeResizeLike(Eigen::MatrixXd::Zero(states + 1, states + 1));
+  system.a(states, states) = -friction_corner;
+  system.a(state("motor_rate"), states) = 1.0 / drive.motor_inertia;
+  system.b.conservativeResizeLike(Eigen::MatrixXd::Zero(states + 1, inputs + 1));
+  system.b(states, inputs) = std::sqrt(2.0 * friction_corner);
+  system.c.conservativeResizeLike(Eigen::MatrixXd::Zero(system.c.rows(), states + 1));
   system.d.conservativeResizeLike(Eigen::MatrixXd::Zero(system.c.rows(), inputs + 1));
+  system.states.push_back(result.friction);
   system.inputs.push_back(result.friction);
   return result;
 }
 
 // What weights of one add to the sampled problem.
 struct UnitTerms {
-  Eigen::MatrixXd input_noise, spring_noise, friction_noise;  // process covariance
+  double friction_corner = 0.0;
+  control::SampledLqgProblem base;                      // without the terms
+  Eigen::MatrixXd input_noise, spring_noise, friction;  // process covariance
   Eigen::MatrixXd spring_cost_q, spring_cost_s, spring_cost_r;
 };
 
-UnitTerms unit_terms(const SampledSetting& setting) {
-  const SpringPorts springs = with_spring_ports(setting);
+UnitTerms unit_terms(const SampledSetting& setting, double friction_corner) {
+  const DesignPorts ports = with_design_ports(setting, friction_corner);
   control::LqgProblem problem = setting.problem();
   std::vector<std::string> outputs{"tachometer", "motor_torque", "encoder"};
-  outputs.insert(outputs.end(), springs.deflections.begin(), springs.deflections.end());
-  problem.plant = plant::subsystem(springs.plant, springs.plant.inputs, outputs);
+  outputs.insert(outputs.end(), ports.deflections.begin(), ports.deflections.end());
+  problem.plant = ports.plant;
+  control::SampledLqgProblem base = control::sampled_problem(problem);
+  problem.plant = plant::subsystem(ports.plant, ports.plant.inputs, outputs);
   problem.disturbance_intensity = {{"valve_command", 1.0}};
   problem.output_weight.clear();
-  for (const std::string& deflection : springs.deflections) problem.output_weight[deflection] = 1.0;
+  for (const std::string& deflection : ports.deflections) problem.output_weight[deflection] = 1.0;
   const control::SampledLqgProblem of_input = control::sampled_problem(problem);
-  problem.disturbance_intensity = {{springs.friction, 1.0}};
+  problem.disturbance_intensity = {{ports.friction, 1.0}};
   const Eigen::MatrixXd of_friction = control::sampled_problem(problem).process_covariance;
   problem.disturbance_intensity.clear();
-  for (const std::string& error : springs.errors) problem.disturbance_intensity[error] = 1.0;
-  return {of_input.process_covariance,
+  for (const std::string& error : ports.errors) problem.disturbance_intensity[error] = 1.0;
+  return {friction_corner,
+          std::move(base),
+          of_input.process_covariance,
           control::sampled_problem(problem).process_covariance,
           of_friction,
           of_input.q,
@@ -102,12 +117,11 @@ UnitTerms unit_terms(const SampledSetting& setting) {
 }
 
 // The problem that the design believes in.
-control::SampledLqgProblem believed(const SampledSetting& setting, const UnitTerms& terms,
-                                    const LqgWeights& weights) {
-  control::SampledLqgProblem problem = setting.sampled();
+control::SampledLqgProblem believed(const UnitTerms& terms, const LqgWeights& weights) {
+  control::SampledLqgProblem problem = terms.base;
   problem.process_covariance += weights.input_noise * terms.input_noise +
                                 weights.spring_noise * terms.spring_noise +
-                                weights.friction_noise * terms.friction_noise;
+                                weights.friction_torque * weights.friction_torque * terms.friction;
   problem.q += weights.spring_weight * terms.spring_cost_q;
   problem.s += weights.spring_weight * terms.spring_cost_s;
   problem.r += weights.spring_weight * terms.spring_cost_r;
@@ -127,12 +141,13 @@ class Search {
  public:
   // The LQG of `model`, evaluated on `plants`.
   Search(const SampledSetting& model, const std::vector<SampledSetting>& plants,
-         const LqgSearchGoals& goals, unsigned threads)
+         const std::vector<SampledSetting>& at_standstill, const LqgSearchGoals& goals,
+         unsigned threads)
       : model_(model),
         plants_(plants),
+        at_standstill_(at_standstill),
         goals_(goals),
-        threads_(threads),
-        terms_(unit_terms(model)) {
+        threads_(threads) {
     // Both terms of the cost are of one size six steps above when the effort is what is allowed.
     const double slack = model.evaluate(weighted_lqg(model, {.command_weight = 1.0})).boresight_rms;
     first_weight_ = 2.0 * std::log(slack / goals.control_effort) - 6.0;
@@ -147,8 +162,8 @@ class Search {
   double spring_unit() const { return spring_unit_; }
   // The same deflection on the oil spring, as torque.
   double friction_unit() const {
-    const double stiffness = model_.plant().drive.oil_stiffness;
-    return stiffness * stiffness * spring_unit_;
+    return model_.plant().drive.oil_stiffness *
+           std::sqrt(spring_unit_ / model_.problem().sample_time);
   }
 
   // The least rms with these weights and the least command weight that keeps the goals; infinite
@@ -163,6 +178,7 @@ class Search {
       weights.command_weight = std::exp(kept.log_weight);
       result_.found = true;
       result_.weights = weights;
+      result_.full_order = kept.controller.a.rows();
       result_.controller = std::move(kept.controller);
       result_.boresight_rms = rms;
     }
@@ -171,9 +187,32 @@ class Search {
 
   const LqgSearchResult& result() const { return result_; }
 
+  // The result with the controller of the lowest order that keeps the goals at hardly more rms.
+  LqgSearchResult reduced() const {
+    LqgSearchResult found = result_;
+    if (!found.found) return found;
+    const ControllerReduction reduction(
+        found.controller,
+        model_.controller_gramians(found.controller, found.weights.command_weight));
+    for (Eigen::Index order = 1; order < reduction.largest_order(); ++order) {
+      plant::StateSpace candidate = reduction.of_order(order);
+      ++found.candidates;
+      if (excess(candidate) > 0.0) continue;
+      const double rms = largest_rms(candidate);
+      if (rms > reduced_rms * result_.boresight_rms) continue;
+      found.controller = std::move(candidate);
+      found.boresight_rms = rms;
+      break;
+    }
+    return found;
+  }
+
  private:
   Trial min_weight(const LqgWeights& weights) {
-    control::SampledLqgProblem problem = believed(model_, terms_, weights);
+    if (!terms_ || terms_->friction_corner != weights.friction_corner) {
+      terms_ = unit_terms(model_, weights.friction_corner);
+    }
+    control::SampledLqgProblem problem = believed(*terms_, weights);
     const double own = problem.r(0, 0);
     const control::StateEstimator estimator = control::state_estimator(problem);
     Trial below, above;  // the weight too small, the weight that does
@@ -213,8 +252,19 @@ class Search {
     for (const SampledSetting& one : plants_) {
       peak = std::max(peak, one.highest_peak(response).magnitude);
     }
-    const double of_peak = std::log(peak / goals_.sensitivity_peak) + reserve;
+    double held = 0.0;
+    for (const SampledSetting& one : at_standstill_) {
+      held = std::max(held, one.highest_peak(response).magnitude);
+    }
+    const double of_peak =
+        std::log(std::max(peak / goals_.sensitivity_peak, held / goals_.standstill_peak)) + reserve;
     if (of_peak > 0.0) return std::min(of_peak, unstable);
+    const bool steady = std::ranges::all_of(at_standstill_, [&](const SampledSetting& one) {
+      return one.spectral_radius(controller) < 1.0;
+    });
+    if (!steady || numerics::eigenvalues(controller.a).cwiseAbs().maxCoeff() >= 1.0) {
+      return unstable;
+    }
     std::vector<double> effort(plants_.size());
     numerics::for_each_index(plants_.size(), threads_, [&](std::size_t i) {
       const bool stable = plants_[i].spectral_radius(controller) < 1.0;
@@ -234,35 +284,38 @@ class Search {
 
   const SampledSetting& model_;
   const std::vector<SampledSetting>& plants_;
+  const std::vector<SampledSetting>& at_standstill_;
   LqgSearchGoals goals_;
   unsigned threads_;
-  UnitTerms terms_;
+  std::optional<UnitTerms> terms_;
   double first_weight_ = 0.0;
   double spring_unit_ = 0.0;
   LqgSearchResult result_;
 };
 
 void check(const LqgSearchGoals& goals) {
-  if (!(goals.sensitivity_peak > 1.0) || !(goals.control_effort > 0.0)) {
+  if (!(goals.sensitivity_peak > 1.0) || !(goals.standstill_peak > 1.0) ||
+      !(goals.control_effort > 0.0)) {
     throw InvalidInput(
-        fmt::format("LQG search: expected a sensitivity_peak above 1 and a valve_effort above 0, "
-                    "found {} and {} rad/s",
-                    goals.sensitivity_peak, goals.control_effort));
+        fmt::format("LQG search: expected peaks of the sensitivity above 1 and a valve_effort "
+                    "above 0, found {}, {} at standstill and {} rad/s",
+                    goals.sensitivity_peak, goals.standstill_peak, goals.control_effort));
   }
 }
 
 }  // namespace
 
 plant::StateSpace weighted_lqg(const SampledSetting& setting, const LqgWeights& weights) {
-  const control::SampledLqgProblem problem = believed(setting, unit_terms(setting), weights);
+  const control::SampledLqgProblem problem =
+      believed(unit_terms(setting, weights.friction_corner), weights);
   return control::lqg_controller(problem, control::lq_regulator(problem),
                                  control::state_estimator(problem));
 }
 
 LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const LqgSearchGoals& goals) {
   check(goals);
-  const std::vector<SampledSetting> itself{nominal};
-  Search search(nominal, itself, goals, 1);
+  const std::vector<SampledSetting> itself{nominal}, none;
+  Search search(nominal, itself, none, goals, 1);
   const auto rms_at = [&](double log_noise) {
     return search.rms_at({.input_noise = search.input_unit() * std::exp(log_noise)});
   };
@@ -297,24 +350,29 @@ LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const LqgSearc
 
 LqgSearchResult search_robust_lqg(const SampledSetting& model,
                                   const std::vector<SampledSetting>& plants,
+                                  const std::vector<SampledSetting>& at_standstill,
                                   const LqgSearchGoals& goals, unsigned threads) {
   check(goals);
   if (plants.empty()) throw InvalidInput("LQG search: expected at least one plant, found none");
-  for (const SampledSetting& one : plants) {
-    if (one.frequency().size() != model.frequency().size() ||
-        (one.frequency() != model.frequency()).any()) {
-      throw InvalidInput("LQG search: expected the same frequencies in every setting");
+  for (const auto* settings : {&plants, &at_standstill}) {
+    for (const SampledSetting& one : *settings) {
+      if (one.frequency().size() != model.frequency().size() ||
+          (one.frequency() != model.frequency()).any()) {
+        throw InvalidInput("LQG search: expected the same frequencies in every setting");
+      }
     }
   }
-  Search search(model, plants, goals, threads);
-  const auto rms_at = [&](const std::array<double, 4>& place) {
+  Search search(model, plants, at_standstill, goals, threads);
+  const auto rms_at = [&](const std::array<double, 5>& place) {
     return search.rms_at({.input_noise = search.input_unit() * std::exp(place[0]),
                           .spring_noise = search.spring_unit() * std::exp(place[1]),
                           .spring_weight = std::exp(place[2]),
-                          .friction_noise = search.friction_unit() * std::exp(place[3])});
+                          .friction_torque = search.friction_unit() * std::exp(0.5 * place[3]),
+                          .friction_corner = std::exp(place[4])});
   };
   const double decade = std::numbers::ln10;
-  std::array<double, 4> place{1.5 * decade, -1.5 * decade, 0.0, 0.0};
+  std::array<double, 5> place{1.5 * decade, -1.5 * decade, 0.0, decade, -0.5 * decade};
+
   double best = rms_at(place);
   int points = 1;
   for (double step = decade; step > 0.5 && points < most_compass_points; step *= 0.5) {
@@ -322,7 +380,7 @@ LqgSearchResult search_robust_lqg(const SampledSetting& model,
       moved = false;
       for (std::size_t k = 0; k < place.size(); ++k) {
         for (const double direction : {1.0, -1.0}) {
-          std::array<double, 4> next = place;
+          std::array<double, 5> next = place;
           next.at(k) += direction * step;
           const double rms = rms_at(next);
           ++points;
@@ -335,7 +393,7 @@ LqgSearchResult search_robust_lqg(const SampledSetting& model,
       }
     }
   }
-  return search.result();
+  return search.reduced();
 }
 
 }  // namespace boresight::design

@@ -10,6 +10,8 @@ namespace boresight::design {
 struct LqgSearchGoals {
   double sensitivity_peak = 2.0;  // largest |S| at the valve command
   double control_effort = 0.6;    // rad/s rms of the noise-driven command
+  /// Largest |S| at the valve command on the plants at standstill (Constraints::standstill).
+  double standstill_peak = 3.0;
 };
 
 /// Search variables: fictitious noise and additional costs of the LQG design.
@@ -26,8 +28,12 @@ struct LqgWeights {
   /// (M. Tahk, J. L. Speyer, IEEE Trans. Automatic Control 32(12), 1987).
   double spring_noise = 0.0;
   double spring_weight = 0.0;
-  /// (N m)^2 s: intensity of white noise torque at the motor, as if friction were uncertain.
-  double friction_noise = 0.0;
+  /// N m: rms of a slow torque at the motor with the corner `friction_corner` (rad/s), as which the
+  /// design sees dry friction. The estimator follows it, so that the loop acts against friction as
+  /// with integral action, and does not take the torque of a motor that friction holds for the
+  /// wind's.
+  double friction_torque = 0.0;
+  double friction_corner = 0.2;
 };
 
 struct LqgSearchResult {
@@ -35,6 +41,7 @@ struct LqgSearchResult {
   bool found = false;
   LqgWeights weights;
   plant::StateSpace controller;
+  Eigen::Index full_order = 0;  // of the LQG before any reduction
   /// Boresight rms (rad of motor): the largest over the plants.
   double boresight_rms = 0.0;
   int candidates = 0;
@@ -51,12 +58,16 @@ plant::StateSpace weighted_lqg(const SampledSetting& setting, const LqgWeights& 
 LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const LqgSearchGoals& goals);
 
 /// Searches an LQG of `model` that is stable and within the constraints on every one of `plants`,
-/// with small worst-case rms. A compass search in the logarithms varies all five weights; the
-/// command weight is again the smallest feasible one. The result is also a benchmark.
-/// Deterministic, whatever the number of threads.
+/// with small worst-case rms, and stable by itself. On the plants `at_standstill` the loop must be
+/// stable with its peak within LqgSearchGoals::standstill_peak. A compass search in the logarithms
+/// varies all weights but the command weight, which is again the smallest feasible one. The
+/// controller found is then reduced (ControllerReduction) to the lowest order that meets the same
+/// constraints with an rms at most 1 % larger. The result is also a benchmark. Deterministic,
+/// whatever the number of threads.
 /// @throws InvalidInput also without plants and for plants of other frequencies than the model's.
 LqgSearchResult search_robust_lqg(const SampledSetting& model,
                                   const std::vector<SampledSetting>& plants,
+                                  const std::vector<SampledSetting>& at_standstill,
                                   const LqgSearchGoals& goals, unsigned threads);
 
 }  // namespace boresight::design

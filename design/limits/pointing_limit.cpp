@@ -36,6 +36,16 @@ Eigen::ArrayXd peak_frequencies(const TrackingProblem& problem,
   return Eigen::Map<Eigen::ArrayXd>(kept.data(), static_cast<Eigen::Index>(kept.size()));
 }
 
+// Those of the constraint, and slopes of smaller oscillations: an LQG estimates the wind from the
+// torque, which drives a motor that friction holds ever further, so that it may limit-cycle slowly.
+std::vector<double> standstill_slopes(const Standstill& standstill) {
+  std::vector<double> slopes = standstill.friction;
+  if (slopes.empty()) return slopes;
+  const double largest = *std::ranges::max_element(slopes);
+  for (const double factor : {3.0, 10.0}) slopes.push_back(factor * largest);
+  return slopes;
+}
+
 class Study {
  public:
   Study(const TrackingProblem& problem, const Constraints& goals,
@@ -44,12 +54,24 @@ class Study {
         ratio_(problem.gear_ratio),
         goals_{goals.sensitivity_peak[1], goals.control_effort},
         filter_(fit_wind_filter(problem)) {
-    const Eigen::ArrayXd frequency = peak_frequencies(problem, members, options.sample_time);
-    const auto add = [&](const std::string& name, const plant::AntennaPlant& plant) {
-      settings_.emplace_back(name, plant, filter_, problem.noise, options.sample_time, frequency);
+    std::vector<EnsembleMember> held;
+    if (goals.standstill) {
+      goals_.standstill_peak = goals.standstill->sensitivity_peak;
+      for (const double friction : standstill_slopes(*goals.standstill)) {
+        held.push_back({fmt::format("friction {:.3g} N.m.s/rad", friction), problem.plant});
+        held.back().plant.drive.viscous_friction = friction;
+      }
+    }
+    std::vector<EnsembleMember> all = members;
+    all.insert(all.end(), held.begin(), held.end());
+    const Eigen::ArrayXd frequency = peak_frequencies(problem, all, options.sample_time);
+    const auto add = [&](std::vector<SampledSetting>& to, const std::string& name,
+                         const plant::AntennaPlant& plant) {
+      to.emplace_back(name, plant, filter_, problem.noise, options.sample_time, frequency);
     };
-    add("nominal", problem.plant);
-    for (const EnsembleMember& member : members) add(member.name, member.plant);
+    add(settings_, "nominal", problem.plant);
+    for (const EnsembleMember& member : members) add(settings_, member.name, member.plant);
+    for (const EnsembleMember& member : held) add(at_standstill_, member.name, member.plant);
   }
 
   const SampledSetting& nominal() const { return settings_.front(); }
@@ -86,14 +108,14 @@ class Study {
 
   std::optional<LimitedLqg> limited(const LqgSearchResult& found) const {
     if (!found.found) return std::nullopt;
-    return LimitedLqg{found.weights, evaluate(found.controller)};
+    return LimitedLqg{found.weights, evaluate(found.controller), found.full_order};
   }
   std::optional<LimitedLqg> margin_limited() const {
     return limited(search_limited_lqg(nominal(), goals_));
   }
   std::optional<LimitedLqg> robustified() const {
     if (settings_.size() == 1) return std::nullopt;
-    return limited(search_robust_lqg(nominal(), settings_, goals_, threads_));
+    return limited(search_robust_lqg(nominal(), settings_, at_standstill_, goals_, threads_));
   }
 
   // The command weight at which the LQG that charges all of the command has the effort allowed:
@@ -191,6 +213,7 @@ class Study {
   LqgSearchGoals goals_;
   plant::ShapingFilter filter_;
   std::vector<SampledSetting> settings_;  // nominal, then the members
+  std::vector<SampledSetting> at_standstill_;
 };
 
 ControllerAgainstLimit against(const DescribedController& named, const Study& study,

@@ -35,6 +35,7 @@ struct SampledDesign {
 struct LimitedLqg {
   LqgWeights weights;  // rms in rad of motor
   SampledDesign design;
+  Eigen::Index full_order = 0;  // of the LQG before any reduction
 };
 
 /// Lower bound for all linear sampled controllers (control/lqg/noise_effort_lqg.hpp). With a
@@ -79,7 +80,10 @@ struct PointingLimit {
   SampledDesign unconstrained;
   /// Benchmarks, not bounds; none where no weights meet the constraints.
   std::optional<LimitedLqg> margin_limited;  // Ms and effort on the nominal plant
-  std::optional<LimitedLqg> robustified;     // the same on every member; none without members
+  /// The same on every member, stable by itself and, with Constraints::standstill, while friction
+  /// holds the motor (search_robust_lqg; the constraint's friction slopes, and 3 and 10 times the
+  /// largest), of reduced order. None without members.
+  std::optional<LimitedLqg> robustified;
   /// The least rms of any controller that measures the whole state, wind included, without error at
   /// each sample, whatever its effort. It is the effect of the wind before the second-next command
   /// acts (to 1 %, from above).
@@ -106,7 +110,7 @@ struct PointingLimitOptions {
 /// compares the controllers with them. The constraints are those on control effort and on Ms at the
 /// valve command. Each design is evaluated from its closed loop: eigenvalues, covariance, response.
 /// The result does not depend on the number of threads. Takes about a second without members; the
-/// robust search takes some 0.3 s per member.
+/// robust search takes some 0.3 s per member on one thread.
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
 /// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable
 /// or observable.

@@ -182,6 +182,22 @@ double SampledSetting::control_effort(const plant::StateSpace& controller) const
                    (loop.direct * sampled_.measurement_covariance * loop.direct.transpose())(0, 0));
 }
 
+ControllerGramians SampledSetting::controller_gramians(const plant::StateSpace& controller,
+                                                       double command_weight) const {
+  const ClosedLoop loop = close(controller);
+  const Eigen::Index n = sampled_.plant.a.rows(), m = loop.a.rows() - n;
+  const Eigen::MatrixXd covariance =
+      steady_covariance(loop.a, wind_jolts(loop) + noise_jolts(loop));
+  Eigen::MatrixXd cost =
+      (sampled_.r(0, 0) + command_weight) * loop.command.transpose() * loop.command;
+  cost.topLeftCorner(n, n) += sampled_.q;
+  const Eigen::MatrixXd mixed = sampled_.s.col(0) * loop.command;
+  cost.topRows(n) += mixed;
+  cost.leftCols(n) += mixed.transpose();
+  const Eigen::MatrixXd to_go = steady_covariance(loop.a.transpose(), cost);
+  return {covariance.bottomRightCorner(m, m), to_go.bottomRightCorner(m, m)};
+}
+
 Eigen::ArrayXXcd SampledSetting::controller_response(const plant::StateSpace& controller,
                                                      const Eigen::ArrayXd& frequency) {
   return responses(from_sensors(controller), frequency, static_cast<Eigen::Index>(sensors().size()),

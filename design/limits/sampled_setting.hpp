@@ -28,6 +28,14 @@ struct SampledPeak {
   double magnitude = 0.0;
 };
 
+/// Gramians of a controller's states in the closed loop, for weighted balancing (P. M. R.
+/// Wortelboer, Frequency-weighted balanced reduction of closed-loop mechanical servo-systems,
+/// thesis, Delft 1994).
+struct ControllerGramians {
+  Eigen::MatrixXd covariance;  // of the states, by wind and noise
+  Eigen::MatrixXd cost_to_go;  // x'Y x: what the state x costs from then on, alone
+};
+
 /// One plant with the wind and the sensors' noise of its case, zero-order hold and one sample of
 /// computation delay. It is prepared once; each controller is then evaluated in O(states^3). A
 /// controller takes any of tachometer, encoder, motor_torque and drives valve_command; its other
@@ -54,6 +62,11 @@ class SampledSetting {
   /// Parts of the same for a controller known to be stable here, at half the cost or less.
   double boresight_rms(const plant::StateSpace& controller) const;
   double control_effort(const plant::StateSpace& controller) const;
+
+  /// In the closed loop of a controller that is stable here. Cost: boresight (rad^2), plus
+  /// `command_weight` (s^2) per mean square of the command.
+  ControllerGramians controller_gramians(const plant::StateSpace& controller,
+                                         double command_weight) const;
 
   /// Response of a controller at `frequency`, one column per measured signal (tachometer, encoder,
   /// motor_torque): the same for every setting with these frequencies.

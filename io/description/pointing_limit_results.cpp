@@ -47,6 +47,7 @@ void describe_defined_design(Visitor& v, const design::SampledDesign& design) {
 void describe_lqg(Visitor& v, const design::LimitedLqg& lqg) {
   v.defined_as("limit_lqg", "An LQG controller, with what its design was made to believe.");
   describe_design(v, lqg.design);
+  v.count("full_order", lqg.full_order, "Order of the LQG before any reduction.");
   const auto& weights = lqg.weights;
   v.group("weights", "What the design was made to believe; boresight rms in rad of motor.", [&] {
     v.number("command_weight", weights.command_weight, {.suffix = "s2"},
@@ -57,8 +58,10 @@ void describe_lqg(Visitor& v, const design::LimitedLqg& lqg) {
              "Intensity of noise in what each spring feels of its deflection.", positive);
     v.number("spring_weight", weights.spring_weight, unit::ratio,
              "Cost of the deflections' mean square.", positive);
-    v.number("friction_noise", weights.friction_noise, {.suffix = "N2_m2_s"},
-             "Intensity of noise torque at the motor.", positive);
+    v.number("friction_torque", weights.friction_torque, {.suffix = "N_m"},
+             "Rms of the slow torque that stands for friction.", positive);
+    v.number("friction_corner", weights.friction_corner, unit::radian_per_second,
+             "Corner of that torque.", positive);
   });
 }
 

@@ -9,6 +9,8 @@
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/numerics/angles.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
@@ -186,6 +188,34 @@ TEST(PointingLimit, IsRobustOnEveryMemberOnceRobustified) {
   EXPECT_EQ(design.members.front().plant, "slow structure");
 }
 
+// Friction slopes of the constraint, and larger ones up to ten times.
+TEST(PointingLimit, TheRobustifiedIsStableWhileFrictionHoldsTheMotor) {
+  const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
+  const TrackingProblem problem = problem_with_torque_noise();
+  Constraints standing;
+  standing.standstill = Standstill{3.0, {100.0, 300.0}};
+  const auto free = pointing_limit(problem, {}, members, {});
+  const auto held = pointing_limit(problem, standing, members, {});
+  ASSERT_TRUE(free.robustified && held.robustified);
+  EXPECT_GE(held.robustified->design.worst_rms, 0.99 * free.robustified->design.worst_rms);
+  const auto filter = fit_wind_filter(problem);
+  for (const double friction : {100.0, 300.0, 900.0, 3000.0}) {
+    plant::AntennaPlant plant = problem.plant;
+    plant.drive.viscous_friction = friction;
+    const SampledSetting setting("held", plant, filter, problem.noise, held.sample_time,
+                                 plant::frequency_grid(plant, 1e-3, 24.9, 100) * two_pi);
+    const auto& controller = held.robustified->design.controller;
+    EXPECT_LT(setting.spectral_radius(controller), 1.0) << friction;
+    const auto peak =
+        setting.highest_peak(SampledSetting::controller_response(controller, setting.frequency()));
+    EXPECT_LE(peak.magnitude, 3.0 * (1.0 + 1e-3)) << friction;
+  }
+  // It can be switched on without its loop, and is of lower order than its design.
+  const auto& controller = held.robustified->design.controller;
+  EXPECT_LT(numerics::eigenvalues(controller.a).cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_LT(controller.a.rows(), held.robustified->full_order);
+}
+
 TEST(PointingLimit, SaysOfAControllerThatIsUnstableOnlyThat) {
   std::vector<DescribedController> controllers{tuned_controllers().front()};
   controllers.front().controller.gains[0] = 20.0;
@@ -233,11 +263,11 @@ TEST(PointingLimit, RefusesWhatItCannotJudge) {
   const SampledSetting one("one", problem.plant, filter, problem.noise, 0.02, some);
   const SampledSetting two("two", problem.plant, filter, problem.noise, 0.02, 1.01 * some);
   EXPECT_THAT(reference::Call([&] { search_limited_lqg(one, {.sensitivity_peak = 1.0}); }),
-              ThrowsMessage<InvalidInput>(HasSubstr("sensitivity_peak above 1")));
-  EXPECT_THAT(reference::Call([&] { search_robust_lqg(one, {}, {}, 1); }),
+              ThrowsMessage<InvalidInput>(HasSubstr("peaks of the sensitivity above 1")));
+  EXPECT_THAT(reference::Call([&] { search_robust_lqg(one, {}, {}, {}, 1); }),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one plant")));
   EXPECT_THAT(reference::Call([&] {
-                search_robust_lqg(one, {one, two}, {}, 1);
+                search_robust_lqg(one, {one, two}, {}, {}, 1);
               }),
               ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
 }

@@ -170,7 +170,7 @@ Subcommand add_benchmark(CLI::App& program) {
                   "docs/benchmark-protocol.md");
   sub->add_option("--part", arguments->part,
                   "state space to use from a file of several (--mat or --json of model, redesign, "
-                  "tune): controller or sampled_controller");
+                  "tune): controller, sampled_controller or state_space_controller");
   sub->add_option("--inputs", arguments->controller_inputs,
                   "names of the controller's inputs if its file has none, comma-separated");
   sub->add_option("--outputs", arguments->controller_outputs, "names of its outputs");

@@ -108,6 +108,10 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   if (best != nullptr && !report.interrupted) {
     report.limit =
         pointing_limit_of(mission, *report.tuned, ensemble, best->wind_speed, arguments.threads);
+    if (report.time_domain && report.time_domain->wind_speed == best->wind_speed) {
+      report.state_space = design::study_state_space(mission, report.tuned->problem, *report.limit,
+                                                     *report.time_domain, arguments.threads);
+    }
   }
   report.conclusions = conclude(*report.tuned);
   if (report.time_domain) report.conclusions.push_back(conclude(*report.time_domain));

@@ -11,7 +11,7 @@
 namespace boresight::app {
 
 LinearModels linear_models(const plant::AntennaPlant& antenna, double gear_ratio) {
-  return {antenna, plant::to_state_space(antenna), gear_ratio, std::nullopt};
+  return {antenna, plant::to_state_space(antenna), gear_ratio, std::nullopt, std::nullopt};
 }
 
 LinearModels linear_models(const design::TrackingProblem& problem,
@@ -34,8 +34,11 @@ std::optional<LinearModels> linear_models(const Report& report) {
     const auto& problem = report.tuned->problem;
     if (shown == nullptr) return linear_models(problem.plant, problem.gear_ratio);
     const bool recommended = recommended_tuned_controller(*report.tuned) != nullptr;
-    return linear_models(problem, shown->design.tuning.controller,
-                         description_of(*shown) + (recommended ? "" : ", not recommended"));
+    LinearModels models =
+        linear_models(problem, shown->design.tuning.controller,
+                      description_of(*shown) + (recommended ? "" : ", not recommended"));
+    if (report.state_space) models.state_space_controller = report.state_space->controller;
+    return models;
   }
   if (report.tuning && report.tuning->design.tuning.status == design::TuningStatus::optimal) {
     const auto& controller = report.tuning->design.tuning.controller;

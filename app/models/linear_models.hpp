@@ -29,6 +29,8 @@ struct LinearModels {
   plant::StateSpace plant;  // plant::to_state_space(antenna)
   double gear_ratio = 1.0;  // motor turns per turn of the antenna
   std::optional<ControllerModels> loop;
+  /// Of a StateSpaceStudy: sampled.
+  std::optional<plant::StateSpace> state_space_controller = std::nullopt;
 };
 
 /// A plant alone.

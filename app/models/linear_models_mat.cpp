@@ -146,6 +146,10 @@ std::string to_mat(const LinearModels& models, const std::string& command,
     variables.add_structure("closed_loop_response", closed_loop_response_fields(loop, frequency));
     variables.add_structure("loop_gain", loop_gain_fields(models, loop, frequency));
   }
+  if (models.state_space_controller) {
+    variables.add_structure("state_space_controller",
+                            io::state_space_mat(*models.state_space_controller));
+  }
   return variables.file("linear models of an antenna by boresight");
 }
 

@@ -11,6 +11,7 @@
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/study_decision.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
@@ -219,6 +220,11 @@ std::vector<std::string> decision(const Report& report) {
   }
   if (report.tuned) {
     auto sentences = decision(*report.tuned, report.time_domain, report.limit);
+    if (report.state_space) {
+      if (auto text = state_space_advantage(*report.state_space); !text.empty()) {
+        sentences.push_back(std::move(text));
+      }
+    }
     if (sentences.size() < 3) sentences.push_back(assumptions(report));
     return sentences;
   }

@@ -19,6 +19,10 @@ void describe(io::Visitor& v, const LinearModels& models) {
     v.object("sampled_controller", loop.sampled_controller,
              "The controller in the sampled form that the antenna's computer runs.");
   });
+  v.optional_members(models.state_space_controller, [&](const plant::StateSpace& controller) {
+    v.object("state_space_controller", controller,
+             "Of tune: the state-space controller of `state_space`, sampled.");
+  });
 }
 
 }  // namespace boresight::app

@@ -20,6 +20,7 @@
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
+#include <boresight/design/studies/state_space_study.hpp>
 #include <boresight/identification/friction/steady_friction.hpp>
 #include <boresight/io/campaign/campaign_section.hpp>
 #include <boresight/io/campaign/identified_case.hpp>
@@ -143,6 +144,7 @@ struct Report {
   std::optional<TuneSection> tuned;              // of the command tune
   std::optional<TimeDomainSection> time_domain;  // of the best tuned controller
   std::optional<design::PointingLimit> limit;    // of tune, at the best controller's wind speed
+  std::optional<design::StateSpaceStudy> state_space;  // of the limit's robust LQG
   std::vector<InterpretationResult> interpretations;
   std::optional<MatchingSection> matching;
   std::optional<MatchSection> matched;       // of the command match

@@ -16,6 +16,7 @@
 #include <boresight/app/report/tune_description.hpp>
 #include <boresight/io/campaign/campaign_description.hpp>
 #include <boresight/io/description/pointing_limit_results.hpp>
+#include <boresight/io/description/state_space_results.hpp>
 #include <boresight/io/description/time_domain_results.hpp>
 
 namespace boresight::app {
@@ -59,6 +60,7 @@ void describe(io::Visitor& v, const Report& report) {
   describe_section(v, "tuned", report.tuned, "The structures compared.");
   describe_section(v, "time_domain", report.time_domain, "On the nonlinear antenna.");
   describe_section(v, "limit", report.limit, "What no controller can point better than.");
+  describe_section(v, "state_space", report.state_space, "A controller without loops.");
   v.members_if(!report.interpretations.empty(),
                [&] { describe_interpretations(v, report.interpretations); });
   v.optional_members(report.matching,

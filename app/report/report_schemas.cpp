@@ -51,7 +51,10 @@ const std::vector<CommandSections>& sections_of_commands() {
       {"audit", {"audit"}, {}},
       {"identify", {"identification"}, {"campaign"}},
       {"model", {"plant"}, {"linear_models"}},
-      {"tune", {"tuned", "measured_tuning"}, {"time_domain", "limit", "linear_models"}, true},
+      {"tune",
+       {"tuned", "measured_tuning"},
+       {"time_domain", "limit", "state_space", "linear_models"},
+       true},
       {"match", {"matched"}, {}},
       {"evaluate", {"evaluated"}, {}}};
   return sections;

@@ -13,6 +13,7 @@
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_limit.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::app {
@@ -97,6 +98,9 @@ Document sections_of(const Report& report) {
   if (report.measured) text += document_of(*report.measured);
   if (report.tuned) text += document_of(*report.tuned);
   if (report.limit) text += document_of(*report.limit);
+  if (report.state_space && report.time_domain) {
+    text += document_of(*report.state_space, *report.time_domain);
+  }
   if (report.time_domain) text += document_of(*report.time_domain);
   if (!report.interpretations.empty()) text += document_of(report.interpretations);
   if (report.matching) text += document_of(*report.matching);

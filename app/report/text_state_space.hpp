@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include <boresight/app/document/document.hpp>
+#include <boresight/app/simulate/time_domain.hpp>
+#include <boresight/design/studies/state_space_study.hpp>
+
+namespace boresight::app {
+
+/// The state-space controller beside the recommended loops in the same runs.
+Document document_of(const design::StateSpaceStudy& study, const TimeDomainSection& loops);
+
+/// What it reaches, in a sentence for the decision; empty unless it is free of limit cycles within
+/// the tightest budget and, by the interval, better than the loops.
+std::string state_space_advantage(const design::StateSpaceStudy& study);
+
+}  // namespace boresight::app

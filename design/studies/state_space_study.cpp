@@ -1,0 +1,32 @@
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/design/studies/state_space_study.hpp>
+
+namespace boresight::design {
+
+std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
+                                                 const TrackingProblem& problem,
+                                                 const PointingLimit& limit,
+                                                 const TimeDomainStudy& loops, unsigned threads) {
+  if (!limit.robustified || !mission.antenna.nonlinear) return std::nullopt;
+  StateSpaceStudy study;
+  study.controller = control::antenna_state_space_controller(limit.robustified->design.controller);
+  study.wind_speed = problem.wind.mean_speed;
+  NonlinearVerificationOptions options = loops.options;
+  options.explain = options.second_integrator = false;
+  options.threads = threads;
+  auto simulated = compare_in_time_domain(mission, problem,
+                                          fmt::format("LQG, order {}", study.controller.a.rows()),
+                                          study.controller, options);
+  if (!simulated) return std::nullopt;
+  study.simulated = std::move(*simulated);
+  study.limit_cycle_free =
+      is_limit_cycle_free(study.simulated.result.limit_cycles, tightest_budget(mission));
+  study.change = figure_change(loops.own(), study.simulated);
+  return study;
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+
+#include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/design/studies/time_domain_study.hpp>
+#include <boresight/plant/linear/state_space.hpp>
+
+namespace boresight::design {
+
+/// A state-space controller instead of loops with gains: the robust LQG of a PointingLimit
+/// (PointingLimit::robustified), on the nonlinear antenna.
+struct StateSpaceStudy {
+  /// Sampled, in the form of control::antenna_state_space_controller.
+  plant::StateSpace controller;
+  double wind_speed = 0.0;  // m/s, mean
+  /// Of the name "LQG, order N".
+  SimulatedCandidate simulated;
+  /// is_limit_cycle_free within the tightest budget.
+  bool limit_cycle_free = false;
+  /// figure_change from the loops to this controller.
+  std::optional<numerics::Interval> change;
+};
+
+/// Simulates the robust LQG of a limit as the recommended loops were simulated: by the same options
+/// and in the same winds, without separate influences. The problem is that of both. None without a
+/// robust LQG or Antenna::nonlinear. Takes some 4 s of computing on the 70-m antenna, over
+/// `threads`. The result does not depend on their number. @throws as verify_in_time.
+std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
+                                                 const TrackingProblem& problem,
+                                                 const PointingLimit& limit,
+                                                 const TimeDomainStudy& loops, unsigned threads);
+
+}  // namespace boresight::design

@@ -1,0 +1,58 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "design/studies/demo_mission.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
+#include <boresight/design/studies/state_space_study.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+
+namespace boresight::design {
+namespace {
+
+// As a benchmark: no LQG, but loops as a state space, which must do what the loops do.
+PointingLimit limit_of(const TrackingProblem& problem, const control::Controller& controller) {
+  const double sample_time = problem.delay / 1.5;
+  PointingLimit limit;
+  limit.robustified.emplace();
+  limit.robustified->design.controller =
+      plant::renamed(plant::subsystem(control::sampled_controller(controller, sample_time),
+                                      {"tachometer", "encoder"}, {"valve_demand"}),
+                     {{"valve_demand", "valve_command"}});
+  return limit;
+}
+
+TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
+  const Mission mission = reference::demo_mission();
+  const TrackingProblem problem = tracking_problem(mission);
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const auto simulated =
+      verify_in_time_domain(mission, problem, loops, "LL+L", 1, 2, SecondIntegrator::none);
+  ASSERT_TRUE(simulated);
+  const auto study = study_state_space(mission, problem, limit_of(problem, loops), *simulated, 2);
+  ASSERT_TRUE(study);
+  EXPECT_EQ(study->wind_speed, problem.wind.mean_speed);
+  EXPECT_EQ(study->simulated.controller, "LQG, order 2");
+  EXPECT_NEAR(study->simulated.simulated_rms() / simulated->own().simulated_rms(), 1.0, 1e-3);
+  EXPECT_NEAR(study->simulated.result.wind.static_error / simulated->result.wind.static_error, 1.0,
+              1e-4);
+  ASSERT_TRUE(study->change);
+  EXPECT_NEAR(study->change->value, 0.0, 1e-3);
+  ASSERT_TRUE(study->simulated.result.slew);
+  EXPECT_EQ(study->limit_cycle_free,
+            is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));
+}
+
+TEST(StateSpaceStudy, NeedsAControllerAndANonlinearAntenna) {
+  Mission mission = reference::demo_mission();
+  const TrackingProblem problem = tracking_problem(mission);
+  EXPECT_FALSE(study_state_space(mission, problem, {}, {}, 1));
+  mission.antenna.nonlinear.reset();
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  EXPECT_FALSE(study_state_space(mission, problem, limit_of(problem, loops), {}, 1));
+}
+
+}  // namespace
+}  // namespace boresight::design

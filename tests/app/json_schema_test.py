@@ -39,7 +39,7 @@ UNITS = ("1", "kg_m2", "Pa", "N_m", "N_m_per_rad", "N_m_s_per_rad", "Hz", "s", "
 COUNTS = {"seed", "samples", "degrees_of_freedom", "starts", "starts_at_optimum", "starts_with_limit_cycle", "evaluations",
           "seeds_within_1_percent", "checked_numbers", "bytes", "rows", "first_sample", "samples", "steps",
           "events", "cvodes_steps", "counted", "outliers", "iterations", "rank", "varied", "motor", "harmonic",
-          "ensemble_members", "records", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_constraints", "winds"}
+          "ensemble_members", "records", "rounds", "warm_starts", "even_stretches", "after_grid_point", "stable", "stable_members", "within_constraints", "winds", "full_order"}
 
 # Of a state space, whose signals' units stand beside it (docs/benchmark-protocol.md).
 MATRICES = {"A", "B", "C", "D", "sample_time"}

@@ -84,4 +84,8 @@ double spectral_abscissa(const Eigen::MatrixXd& matrix) {
   return eigenvalues(matrix).real().maxCoeff();
 }
 
+double spectral_radius(const Eigen::MatrixXd& matrix) {
+  return matrix.rows() == 0 ? 0.0 : eigenvalues(matrix).cwiseAbs().maxCoeff();
+}
+
 }  // namespace boresight::numerics

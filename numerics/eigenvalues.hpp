@@ -25,4 +25,8 @@ EigenDecomposition eigen_decomposition(const Eigen::MatrixXd& matrix);
 /// The largest real part of the eigenvalues: negative for a stable system dx/dt = A x.
 double spectral_abscissa(const Eigen::MatrixXd& matrix);
 
+/// The largest magnitude of the eigenvalues: below 1 for a stable system x[k+1] = A x[k]. 0 without
+/// states. @throws as eigenvalues.
+double spectral_radius(const Eigen::MatrixXd& matrix);
+
 }  // namespace boresight::numerics

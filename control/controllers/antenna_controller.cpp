@@ -37,10 +37,6 @@ double pressure_slope(const Controller& controller) {
   return compensator_response(controller, low).pressure.imag() / low;
 }
 
-double spectral_radius(const Eigen::MatrixXd& matrix) {
-  return matrix.rows() == 0 ? 0.0 : numerics::eigenvalues(matrix).cwiseAbs().maxCoeff();
-}
-
 // Inputs in the order of Input.
 plant::StateSpace in_ports(const plant::StateSpace& sampled, bool torque) {
   std::vector<std::string> ports{"tachometer", "encoder", "rate_disturbance"};
@@ -48,7 +44,7 @@ plant::StateSpace in_ports(const plant::StateSpace& sampled, bool torque) {
   return plant::subsystem(sampled, ports, {"valve_demand"});
 }
 
-// The same of a state space: a rate that is commanded is taken off the tachometer's.
+// The same of a state space. A commanded rate is subtracted from the tachometer's.
 plant::StateSpace about_motion(const plant::StateSpace& controller, double sample_time) {
   plant::validate(controller);
   const auto reads = [&](const char* name) {
@@ -69,7 +65,7 @@ plant::StateSpace about_motion(const plant::StateSpace& controller, double sampl
         fmt::format("antenna controller: expected a controller sampled every {} s, found {} s",
                     sample_time, controller.sample_time));
   }
-  const double radius = spectral_radius(controller.a);
+  const double radius = numerics::spectral_radius(controller.a);
   if (!(radius < 1.0)) {
     throw InvalidInput(fmt::format(
         "antenna controller: expected a state space that is stable by itself, found a pole of "
@@ -166,7 +162,9 @@ AntennaController::AntennaController(const FeedbackController& controller, doubl
 }
 
 void AntennaController::prevent_windup(const Controller& controller) {
-  const auto radius = [&](const Eigen::VectorXd& back) { return spectral_radius(a_ - back * c_); };
+  const auto radius = [&](const Eigen::VectorXd& back) {
+    return numerics::spectral_radius(a_ - back * c_);
+  };
   // A pole within rounding of 1: a double one is known to the root of the working precision.
   constexpr double integrates = 1.0 - 1e-7;
   if (radius(back_calculation_) < integrates) return;

@@ -66,7 +66,7 @@ plant::StateSpace open_loop(const plant::AntennaPlant& antenna,
 
 // Where the period ends in parts short enough for the poles.
 double parts_of(const MatrixXd& a, double time) {
-  const double fastest = numerics::eigenvalues(a).cwiseAbs().maxCoeff();
+  const double fastest = numerics::spectral_radius(a);
   const double parts = std::max(1.0, std::ceil(fastest * time / resolved));
   if (!(parts <= max_parts)) {
     throw NumericalFailure(
@@ -191,7 +191,7 @@ ClosedLoopResponse::ClosedLoopResponse(const plant::AntennaPlant& antenna,
       step_[n + i] = demand;
     }
   }
-  spectral_radius_ = numerics::eigenvalues(transition_).cwiseAbs().maxCoeff();
+  spectral_radius_ = numerics::spectral_radius(transition_);
 }
 
 double ClosedLoopResponse::abscissa() const {

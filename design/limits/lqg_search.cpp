@@ -187,7 +187,8 @@ class Search {
 
   const LqgSearchResult& result() const { return result_; }
 
-  // The result with the controller of the lowest order that keeps the goals at hardly more rms.
+  // The result with the controller of the lowest order that meets the constraints with an rms at
+  // most reduced_rms times as large.
   LqgSearchResult reduced() const {
     LqgSearchResult found = result_;
     if (!found.found) return found;
@@ -262,7 +263,7 @@ class Search {
     const bool steady = std::ranges::all_of(at_standstill_, [&](const SampledSetting& one) {
       return one.spectral_radius(controller) < 1.0;
     });
-    if (!steady || numerics::eigenvalues(controller.a).cwiseAbs().maxCoeff() >= 1.0) {
+    if (!steady || numerics::spectral_radius(controller.a) >= 1.0) {
       return unstable;
     }
     std::vector<double> effort(plants_.size());

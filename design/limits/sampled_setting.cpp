@@ -124,7 +124,7 @@ SampledSetting::ClosedLoop SampledSetting::close(const plant::StateSpace& contro
 }
 
 double SampledSetting::spectral_radius(const plant::StateSpace& controller) const {
-  return numerics::eigenvalues(close(controller).a).cwiseAbs().maxCoeff();
+  return numerics::spectral_radius(close(controller).a);
 }
 
 Eigen::MatrixXd SampledSetting::wind_jolts(const ClosedLoop& loop) const {
@@ -153,7 +153,7 @@ SampledEvaluation SampledSetting::evaluate(const plant::StateSpace& controller) 
   const ClosedLoop loop = close(controller);
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   SampledEvaluation result{0.0, nothing, nothing, nothing, nothing};
-  result.spectral_radius = numerics::eigenvalues(loop.a).cwiseAbs().maxCoeff();
+  result.spectral_radius = numerics::spectral_radius(loop.a);
   if (!(result.spectral_radius < 1.0 - 1e-12)) return result;
   const Eigen::MatrixXd wind = steady_covariance(loop.a, wind_jolts(loop));
   const Eigen::MatrixXd noise = steady_covariance(loop.a, noise_jolts(loop));

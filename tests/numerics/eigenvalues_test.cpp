@@ -52,6 +52,8 @@ TEST(Eigenvalues, KeepTraceAndFollowAShift) {
   EXPECT_NEAR(values.sum().imag(), 0.0, 1e-12);
   EXPECT_NEAR(numerics::spectral_abscissa(matrix - 2.5 * Eigen::MatrixXd::Identity(12, 12)),
               numerics::spectral_abscissa(matrix) - 2.5, 1e-12);
+  EXPECT_DOUBLE_EQ(numerics::spectral_radius(matrix), values.cwiseAbs().maxCoeff());
+  EXPECT_EQ(numerics::spectral_radius(Eigen::MatrixXd(0, 0)), 0.0);
 }
 
 TEST(EigenDecomposition, HasVectorsOnBothSidesThatAreBiorthogonal) {

@@ -220,8 +220,9 @@ std::vector<std::string> decision(const Report& report) {
   }
   if (report.tuned) {
     auto sentences = decision(*report.tuned, report.time_domain, report.limit);
-    if (report.state_space) {
-      if (auto text = state_space_advantage(*report.state_space); !text.empty()) {
+    if (report.state_space && report.time_domain) {
+      if (auto text = state_space_advantage(*report.state_space, *report.time_domain);
+          !text.empty()) {
         sentences.push_back(std::move(text));
       }
     }

@@ -1,12 +1,11 @@
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <boresight/app/report/limit_cycle_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_state_space.hpp>
+#include <boresight/app/report/time_domain_cells.hpp>
 
 namespace boresight::app {
 namespace {
@@ -17,53 +16,64 @@ std::string mdeg(double angle) {
   return std::isfinite(angle) ? fmt::format("{:.4f}", angle / millidegree) : "-";
 }
 
-std::string amplitude(const design::NonlinearVerification& run, bool at_rest) {
-  for (const auto& limit_cycles : run.limit_cycles) {
-    if ((limit_cycles.rate == 0.0) == at_rest) return limit_cycle_cell(limit_cycles);
-  }
-  return "-";
+std::string signed_percent(double fraction) {
+  return fmt::format("{:+.1f} %", 100.0 * fraction);
 }
 
-std::string settling(const std::optional<design::SlewResult>& slew) {
-  if (!slew) return "-";
-  return slew->settling_time ? fmt::format("{:.2f}", *slew->settling_time) : "not seen";
+// Simulated, with the limit cycle in quadrature: by this controllers are compared.
+double compared_rms(const design::SimulatedCandidate& one) {
+  return one.effect().rms(one.result.wind.predicted_rms);
 }
 
-std::string percent(double fraction) {
-  return fmt::format("{:.0f} %", 100.0 * std::abs(fraction));
+bool is_better(const design::StateSpaceStudy& study) {
+  return study.limit_cycle_free && study.change && study.change->upper < 0.0;
+}
+
+std::string verdict(const design::StateSpaceStudy& study, const design::SimulatedCandidate& loops) {
+  if (!study.change) return "No verdict: a run did not complete.";
+  const std::string figures = fmt::format(
+      "with the limit cycle in quadrature the LQG has {:.3f} mdeg rms, {} {:.3f} ({}, 95 % {} to "
+      "{}).",
+      compared_rms(study.simulated) / millidegree, loops.controller,
+      compared_rms(loops) / millidegree, signed_percent(study.change->value),
+      signed_percent(study.change->lower), signed_percent(study.change->upper));
+  if (is_better(study)) return "Better: " + figures;
+  return study.limit_cycle_free
+             ? "No advantage: " + figures
+             : "Not usable, as it limit-cycles beyond the tightest budget: " + figures;
 }
 
 }  // namespace
 
 Document document_of(const design::StateSpaceStudy& study, const TimeDomainSection& loops) {
-  const design::SimulatedCandidate own = loops.own();
+  using Run = design::SimulatedCandidate;
+  const Run own = loops.own();
   std::vector<Row> rows{{"mdeg at the sky", own.controller, study.simulated.controller}};
   const auto add = [&](const std::string& what, const auto& of) {
     rows.push_back({what, of(own), of(study.simulated)});
   };
-  add("rms, linear",
-      [](const design::SimulatedCandidate& one) { return mdeg(one.result.wind.predicted_rms); });
-  add("rms, simulated",
-      [](const design::SimulatedCandidate& one) { return mdeg(one.simulated_rms()); });
-  add("limit cycle at rest",
-      [](const design::SimulatedCandidate& one) { return amplitude(one.result, true); });
+  add("rms, linear", [](const Run& one) { return mdeg(one.result.wind.predicted_rms); });
+  add("rms, simulated", [](const Run& one) { return mdeg(one.simulated_rms()); });
+  add("limit cycle at rest", [](const Run& one) { return limit_cycle_cell(one.result, true); });
   add("limit cycle when tracking",
-      [](const design::SimulatedCandidate& one) { return amplitude(one.result, false); });
-  add("peak error at a velocity reversal, encoder", [](const design::SimulatedCandidate& one) {
+      [](const Run& one) { return limit_cycle_cell(one.result, false); });
+  add("rms and limit cycle in quadrature", [](const Run& one) { return mdeg(compared_rms(one)); });
+  add("peak error at a velocity reversal, encoder", [](const Run& one) {
     return one.result.reversal ? mdeg(one.result.reversal->encoder_error) : "-";
   });
   add("static boresight error in the mean wind",
-      [](const design::SimulatedCandidate& one) { return mdeg(one.result.wind.static_error); });
-  add("slew overshoot", [](const design::SimulatedCandidate& one) {
-    return one.result.slew ? mdeg(one.result.slew->overshoot) : "-";
+      [](const Run& one) { return mdeg(one.result.wind.static_error); });
+  add("slew overshoot",
+      [](const Run& one) { return one.result.slew ? mdeg(one.result.slew->overshoot) : "-"; });
+  add("slew settled after, s", [&](const Run& one) {
+    return settling_cell(one.result.slew, loops.options.settling_watched);
   });
-  add("slew settled after, s",
-      [](const design::SimulatedCandidate& one) { return settling(one.result.slew); });
   Document text = heading("A state-space controller instead of loops");
+  text += essential(wrapped(verdict(study, own), "  "));
   text += wrapped(
-      fmt::format("The LQG of the table above that is robust over the plants, reduced to the "
-                  "lowest order that meets the same constraints, and the recommended loops in the "
-                  "same runs on the nonlinear antenna, wind of {:.3g} m/s.",
+      fmt::format("The LQG is that of the table above that is robust over the plants, reduced to "
+                  "the lowest order that meets the same constraints. It ran on the nonlinear "
+                  "antenna as the recommended loops did, in the same wind of {:.3g} m/s.",
                   study.wind_speed),
       "  ");
   text += essential(table(rows, "l"));
@@ -76,14 +86,16 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   return text;
 }
 
-std::string state_space_advantage(const design::StateSpaceStudy& study) {
-  if (!study.limit_cycle_free || !study.change || !(study.change->upper < 0.0)) return "";
+std::string state_space_advantage(const design::StateSpaceStudy& study,
+                                  const TimeDomainSection& loops) {
+  if (!is_better(study)) return "";
   return fmt::format(
-      "A state-space controller of the same sensors ({}) has {:.3f} mdeg rms simulated, {} less "
-      "(95 % {} to {}), and no limit cycle beyond the tightest budget; it cannot be commissioned "
-      "loop by loop.",
-      study.simulated.controller, study.simulated.simulated_rms() / millidegree,
-      percent(study.change->value), percent(study.change->upper), percent(study.change->lower));
+      "A state-space controller of the same sensors ({}) would be better, but cannot be "
+      "commissioned loop by loop: {:.3f} mdeg rms with the limit cycle in quadrature, {} (95 % {} "
+      "to {}) beside {}.",
+      study.simulated.controller, compared_rms(study.simulated) / millidegree,
+      signed_percent(study.change->value), signed_percent(study.change->lower),
+      signed_percent(study.change->upper), loops.controller);
 }
 
 }  // namespace boresight::app

@@ -5,9 +5,9 @@
 
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/influences.hpp>
-#include <boresight/app/report/limit_cycle_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/time_domain_cells.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -228,21 +228,10 @@ Document candidates_part(const TimeDomainSection& section) {
   Rows rows{{"controller", "linear rms mdeg", "simulated", "limit cycle at rest", "when tracking",
              "reversal error", "slew settled s"}};
   for (const auto& [controller, result, expected] : section.candidates) {
-    const auto amplitude = [&](bool at_rest) -> std::string {
-      for (const auto& limit_cycles : result.limit_cycles) {
-        if ((limit_cycles.rate == 0.0) != at_rest) continue;
-        return limit_cycle_cell(limit_cycles);
-      }
-      return "-";
-    };
-    const auto& slew = result.slew;
     rows.push_back({controller, mdeg(result.wind.predicted_rms), simulated_cell(result, expected),
-                    amplitude(true), amplitude(false),
+                    limit_cycle_cell(result, true), limit_cycle_cell(result, false),
                     result.reversal ? mdeg(result.reversal->boresight_error) : "-",
-                    !slew                  ? "-"
-                    : !slew->settling_time ? fmt::format("> {:g}", section.options.settling_watched)
-                    : *slew->settling_time > 0.0 ? fmt::format("{:.2f}", *slew->settling_time)
-                                                 : std::string("at once")});
+                    settling_cell(result.slew, section.options.settling_watched)});
   }
   return "\n" + table(rows, "l") +
          wrapped(fmt::format("Boresight in mdeg at the sky, simulated in {} of wind, the same for "

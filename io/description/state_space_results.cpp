@@ -1,4 +1,3 @@
-#include <boresight/io/description/state_space_description.hpp>
 #include <boresight/io/description/state_space_results.hpp>
 #include <boresight/io/description/time_domain_results.hpp>
 
@@ -8,11 +7,9 @@ void describe(Visitor& v, const design::StateSpaceStudy& study) {
   namespace unit = key_units;
   v.defined_as("state_space_study",
                "A state-space controller instead of loops with gains: the robust LQG of `limit`, "
-               "on the nonlinear antenna.");
+               "on the nonlinear antenna. linear_models has its matrices.");
   v.text("name", study.simulated.controller, "LQG and its order.");
   v.number("wind_speed", study.wind_speed, unit::metre_per_second, "Mean.", {.minimum = 0.0});
-  v.object("controller", study.controller,
-           "Sampled: inputs tachometer, encoder, motor_torque; output valve_demand.");
   v.object("runs", study.simulated.result, "Its runs, as those of the loops in `time_domain`.");
   v.object("expected_rms", study.simulated.rms, "Over the same records of wind as the loops'.");
   v.flag("limit_cycle_free", study.limit_cycle_free, "Within the tightest budget.");

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "app/document/on_one_line.hpp"
 #include "io/description/recording_visitor.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/decision.hpp>
@@ -13,8 +14,8 @@
 namespace boresight::app {
 namespace {
 
+using testing::ContainsRegex;
 using testing::HasSubstr;
-using testing::Not;
 
 design::StateSpaceStudy study() {
   design::StateSpaceStudy study;
@@ -22,6 +23,12 @@ design::StateSpaceStudy study() {
   study.simulated.controller = "LQG, order 9";
   study.simulated.rms.emplace().rms.value = 0.2 * millidegree;
   study.simulated.result.wind.static_error = 0.75 * millidegree;
+  study.simulated.result.wind.predicted_rms = 0.19 * millidegree;
+  design::LimitCycleResult rest;
+  rest.limit_cycle = true;
+  rest.starts = rest.starts_with_limit_cycle = 3;
+  rest.boresight_amplitude = 0.06 * millidegree;
+  study.simulated.result.limit_cycles = {rest};
   study.limit_cycle_free = true;
   auto& change = study.change.emplace();
   change.value = -0.35;
@@ -30,32 +37,49 @@ design::StateSpaceStudy study() {
   return study;
 }
 
-TEST(TextStateSpace, PutsItBesideTheLoops) {
+TimeDomainSection loops() {
   TimeDomainSection loops;
   loops.controller = "FULL+L+C, robust";
-  loops.result.wind.predicted_rms = 0.31 * millidegree;
+  loops.result.wind.predicted_rms = loops.result.wind.boresight_rms = 0.31 * millidegree;
   loops.result.wind.static_error = 0.33 * millidegree;
   loops.result.slew.emplace().overshoot = 2.5 * millidegree;
-  const std::string text = to_text(document_of(study(), loops));
-  EXPECT_THAT(text, HasSubstr("FULL+L+C, robust  LQG, order 9"));
-  EXPECT_THAT(text, testing::ContainsRegex("rms, simulated +[0-9.-]+ +0[.]2000"));
-  EXPECT_THAT(text,
-              testing::ContainsRegex("static boresight error in the mean wind +0.3300 +0.7500"));
-  EXPECT_THAT(text, testing::ContainsRegex("slew overshoot +2.5000 +-"));
+  loops.result.slew->settling_time = 0.0;
+  return loops;
 }
 
-TEST(TextStateSpace, TellsOfAnAdvantageOnlyWhereThereIsOne) {
-  EXPECT_THAT(state_space_advantage(study()),
-              HasSubstr("(LQG, order 9) has 0.200 mdeg rms simulated, 35 % less (95 % 30 % to 40 "
-                        "%), and no limit cycle beyond the tightest budget"));
+TEST(TextStateSpace, PutsItBesideTheLoops) {
+  const std::string text = to_text(document_of(study(), loops()));
+  EXPECT_THAT(text, HasSubstr("FULL+L+C, robust  LQG, order 9"));
+  EXPECT_THAT(text, ContainsRegex("rms, simulated +0[.]3100 +0[.]2000"));
+  EXPECT_THAT(text, ContainsRegex("limit cycle at rest +- +[+]-0[.]0600"));
+  // The root of 0.2^2 + 0.06^2/2.
+  EXPECT_THAT(text, ContainsRegex("rms and limit cycle in quadrature +0[.]3100 +0[.]2045"));
+  EXPECT_THAT(text, ContainsRegex("static boresight error in the mean wind +0[.]3300 +0[.]7500"));
+  EXPECT_THAT(text, ContainsRegex("slew overshoot +2[.]5000 +-"));
+  EXPECT_THAT(text, ContainsRegex("slew settled after, s +at once +-"));
+}
+
+TEST(TextStateSpace, LeadsWithItsVerdict) {
+  const auto verdict = [](const design::StateSpaceStudy& study) {
+    return on_one_line(to_text(document_of(study, loops())));
+  };
+  EXPECT_THAT(verdict(study()), HasSubstr("Better: with the limit cycle in quadrature the LQG has "
+                                          "0.204 mdeg rms, FULL+L+C, robust 0.310 (-35.0 %, 95 % "
+                                          "-40.0 % to -30.0 %)."));
+  EXPECT_THAT(state_space_advantage(study(), loops()),
+              HasSubstr("(LQG, order 9) would be better, but cannot be commissioned loop by loop: "
+                        "0.204 mdeg rms"));
   auto cycling = study();
   cycling.limit_cycle_free = false;
-  EXPECT_EQ(state_space_advantage(cycling), "");
+  EXPECT_THAT(verdict(cycling), HasSubstr("Not usable, as it limit-cycles beyond the tightest"));
+  EXPECT_EQ(state_space_advantage(cycling, loops()), "");
   auto even = study();
   even.change->upper = 0.01;
-  EXPECT_EQ(state_space_advantage(even), "");
+  EXPECT_THAT(verdict(even), HasSubstr("No advantage: with the limit cycle in quadrature"));
+  EXPECT_EQ(state_space_advantage(even, loops()), "");
   even.change.reset();
-  EXPECT_EQ(state_space_advantage(even), "");
+  EXPECT_THAT(verdict(even), HasSubstr("No verdict: a run did not complete."));
+  EXPECT_EQ(state_space_advantage(even, loops()), "");
 }
 
 TEST(TextStateSpace, IsDescribedInItsUnits) {

@@ -36,8 +36,8 @@ Figure error_budget_figure(const std::string& id, const std::string& section,
       id, section, "Error budget against the pointing budgets",
       "Boresight rms per axis; the total is the root sum of squares. Wind and sensor noise: linear "
       "plant. Nonlinear effects: what the nonlinear antenna adds in wind. Limit cycle: rms of its "
-      "amplitude. Static flexure under the mean wind is not in the total: the pointing model "
-      "removes it. Lines: budgets. " +
+      "amplitude. The static error in the mean wind, structural flexure included, is not in the "
+      "total: the pointing model removes it. Lines: budgets. " +
           conditions,
       make_axis("boresight rms", "mdeg"));
   FigurePanel panel;
@@ -53,7 +53,7 @@ Figure error_budget_figure(const std::string& id, const std::string& section,
   add(parts, "nonlinear effects", errors.nonlinearities);
   add(parts, "limit cycle", errors.limit_cycle);
   add(total, "total", errors.total);
-  add(apart, "static flexure", errors.static_flexure);
+  add(apart, "static error", errors.static_error);
   // What each bar spans: then they stand in their rows, not side by side.
   for (auto* series : {&parts, &total, &apart}) {
     series->x_lower.assign(series->x.size(), 0.0);

@@ -173,17 +173,16 @@ std::string wind_model_text(const TuningSection& section) {
       own / millidegree, plant::to_string(section.wind_model), others, verdicts);
 }
 
-// Where static deflection exceeds the tightest budget.
-std::string bending_text(const TuningSection& section) {
+// Where the static error exceeds the tightest budget.
+std::string static_error_text(const TuningSection& section) {
   const auto smallest = std::ranges::min_element(
       section.budgets, {}, [](const BudgetResult& one) { return one.budget.rms; });
   if (smallest == section.budgets.end()) return "";
-  const double bending = std::abs(section.static_bending);
-  if (!(bending > smallest->budget.rms)) return "";
+  if (!(section.static_error > smallest->budget.rms)) return "";
   return fmt::format(
-      "Static deflection in the mean wind of {:.3g} m/s, {:.3f} mdeg, exceeds the whole budget of "
-      "{}; it is not in the rms, and the pointing model must remove it.",
-      section.design_speed, bending / millidegree, budget_text(smallest->budget));
+      "The static boresight error in the mean wind of {:.3g} m/s, {:.3f} mdeg, exceeds the whole "
+      "budget of {}; it is not in the rms, and the pointing model must remove it.",
+      section.design_speed, section.static_error / millidegree, budget_text(smallest->budget));
 }
 
 }  // namespace
@@ -289,7 +288,7 @@ void conclude_tuning(const Report& report, const TuningSection& section,
   add(other_attitudes_text(report, section));
   add(guessed_fractions_text(report, section));
   add(unseen_text(section));
-  add(bending_text(section));
+  add(static_error_text(section));
   add(not_examined(report));
 }
 
@@ -350,7 +349,7 @@ std::vector<std::string> tuning_reservations(const Report& report, const TuningS
   sentences.push_back(other_attitudes_text(report, section));
   sentences.push_back(guessed_fractions_text(report, section));
   sentences.push_back(wind_model_text(section));
-  sentences.push_back(bending_text(section));
+  sentences.push_back(static_error_text(section));
   sentences.push_back(unseen_text(section));
   if (report.time_domain) {
     sentences.push_back(slew_not_achievable(*report.time_domain));

@@ -147,11 +147,11 @@ void describe_bands(io::Visitor& v, const TuningSection& section) {
     v.number("beamwidth", loss.band.beamwidth, unit::millidegree, "Half-power beamwidth.",
              above_zero);
     v.number("mean_loss_two_axes", loss.mean_loss_db, unit::decibel_as_kept,
-             "Mean loss with two equal axes, static bending left out, by a parabola that does not "
+             "Mean loss with two equal axes, static error left out, by a parabola that does not "
              "hold beyond 3 dB; texts say > 3 there.",
              positive);
-    v.number("static_bending_loss", loss.static_bending_db, unit::decibel_as_kept,
-             "What static bending on this axis would add if no pointing model took it away.",
+    v.number("static_error_loss", loss.static_error_db, unit::decibel_as_kept,
+             "What the static error on this axis would add if no pointing model removed it.",
              positive);
   });
 }
@@ -281,8 +281,9 @@ void describe(io::Visitor& v, const TuningSection& section) {
            "Mean wind speed whose mean torque takes what friction and offset leave of the "
            "supply's; null if there is none.",
            positive);
-  v.number("static_bending", section.static_bending, unit::millidegree,
-           "Bending by the mean wind; not in the rms.");
+  v.number("static_error", section.static_error, unit::millidegree,
+           "Boresight error at rest in the mean wind, structural flexure included; not in the rms.",
+           positive);
   v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });

@@ -277,25 +277,24 @@ Document document_of(const TuningSection& section) {
   }
   rows.push_back({"structural flexure beyond the encoder alone", mdeg(section.flexure_rms)});
   rows.push_back(
-      {"static deflection in the mean wind (not in the rms)", mdeg(section.static_bending)});
+      {"static boresight error in the mean wind (not in the rms)", mdeg(section.static_error)});
   text += table(rows) + wind_part(section) + "\n";
-  rows = {
-      {"band", "beamwidth mdeg", "mean loss dB, two equal axes", "static deflection would add"}};
+  rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes", "static error would add"}};
   for (const auto& loss : section.losses) {
     rows.push_back({fmt::format("{} {:g} GHz", loss.band.name, loss.band.frequency / 1e9),
                     fmt::format("{:.3f}", loss.band.beamwidth / millidegree),
-                    loss_text(loss.mean_loss_db), loss_text(loss.static_bending_db)});
+                    loss_text(loss.mean_loss_db), loss_text(loss.static_error_db)});
   }
   const bool far_out = std::ranges::any_of(section.losses, [](const auto& loss) {
-    return std::max(loss.mean_loss_db, loss.static_bending_db) > largest_parabola_loss;
+    return std::max(loss.mean_loss_db, loss.static_error_db) > largest_parabola_loss;
   });
-  text +=
-      table(rows) +
-      wrapped(
-          "Losses exclude static wind deflection, which the encoder does not sense; remove it by a "
-          "boresight scan.",
-          "  ") +
-      (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
+  text += table(rows) +
+          wrapped(
+              "Losses exclude the static error in the mean wind, structural flexure included; "
+              "remove it "
+              "by a boresight scan.",
+              "  ") +
+          (far_out ? wrapped(beyond_the_parabola(), "  ") : Document()) + "\n";
   const auto& mast = section.wind_mast;
   rows = {
       {"budget", "band", "convention", "rms mdeg", "met up to m/s" + mast_column(mast), "km/h"}};

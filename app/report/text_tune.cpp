@@ -15,7 +15,7 @@
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
-#include <boresight/design/problem/static_bending.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -74,24 +74,28 @@ std::vector<std::string> first_cells(const TunedController& row) {
           fmt::format("{:.3g}", row.wind_speed)};
 }
 
-// What static wind deflection would add to the losses.
-Document bending_part(const TuneSection& section) {
-  if (section.bands.empty() || section.wind_speeds.empty()) return {};
+// What the static error in the mean wind would add to the losses.
+Document static_error_part(const TuneSection& section) {
+  const TunedController* recommended = recommended_tuned_controller(section);
+  if (section.bands.empty() || section.wind_speeds.empty() || recommended == nullptr) return {};
   design::TrackingProblem problem = section.problem;
   problem.wind.mean_speed = section.wind_speeds.front();
-  const double bending = static_bending(problem);
+  const double error =
+      design::static_boresight_error(problem, recommended->design.tuning.controller);
   std::vector<std::string> losses;
   for (const auto& band : section.bands) {
     losses.push_back(
         fmt::format("{} dB in band {}",
-                    loss_text(design::pointing_loss_db(bending, band.beamwidth,
+                    loss_text(design::pointing_loss_db(error, band.beamwidth,
                                                        design::LossConvention::mean_loss_one_axis)),
                     band.name));
   }
   return wrapped(
-      fmt::format("Losses exclude static wind deflection, {} mdeg in {:.3g} m/s, which the loops "
-                  "cannot sense; remove it by a boresight scan. It would add {}.",
-                  mdeg(std::abs(bending)), problem.wind.mean_speed, fmt::join(losses, ", ")),
+      fmt::format("Losses exclude the static error in the mean wind of {:.3g} m/s, structural "
+                  "flexure included: {} mdeg with {}. Remove it by a boresight scan; it would add "
+                  "{}.",
+                  problem.wind.mean_speed, mdeg(error), recommended->structure,
+                  fmt::join(losses, ", ")),
       "  ");
 }
 
@@ -190,7 +194,7 @@ Document pointing_part(const TuneSection& section) {
                     band.illumination.empty() ? "" : ", " + band.illumination);
   }
   if (far_out(section)) text += wrapped(beyond_the_parabola(), "  ");
-  return text + bending_part(section);
+  return text + static_error_part(section);
 }
 
 Document robustness_part(const TuneSection& section) {

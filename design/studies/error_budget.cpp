@@ -1,8 +1,8 @@
 #include <cmath>
 
 #include <boresight/design/problem/nonlinear_effect.hpp>
-#include <boresight/design/problem/static_bending.hpp>
 #include <boresight/design/studies/error_budget.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 
 namespace boresight::design {
 
@@ -21,7 +21,7 @@ ErrorBudget error_budget(const TrackingProblem& problem, const Design& design,
     budget.limit_cycle = limit_cycle_rms(limit_cycle_amplitude(in_time->result.limit_cycles));
   }
   budget.total = std::hypot(linear, budget.nonlinearities, budget.limit_cycle);
-  budget.static_flexure = std::abs(static_bending(problem));
+  budget.static_error = static_boresight_error(problem, design.tuning.controller);
   return budget;
 }
 

@@ -17,8 +17,8 @@ struct ErrorBudget {
   double limit_cycle = 0.0;  // rms of a sinusoid of the largest boresight amplitude
   /// Root sum of squares of the four above.
   double total = 0.0;
-  /// Magnitude of static_bending, not part of the total: the pointing model must remove it.
-  double static_flexure = 0.0;
+  /// static_boresight_error, not part of the total: the pointing model must remove it.
+  double static_error = 0.0;
 };
 
 /// Error budget of a stable design. `in_time`: its simulation in the same wind; the expected rms is

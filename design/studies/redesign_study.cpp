@@ -6,9 +6,9 @@
 #include <boresight/design/ensembles/budgets_on_plants.hpp>
 #include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/problem/pointing.hpp>
-#include <boresight/design/problem/static_bending.hpp>
 #include <boresight/design/studies/redesign_study.hpp>
 #include <boresight/design/studies/retuned_present.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
@@ -58,7 +58,7 @@ std::vector<DesignTask> seed_tasks(const Mission& mission, const PlantEnsemble& 
   return tasks;
 }
 
-// What the tuned controller means at the sky: other winds, bending, bands and budgets.
+// The tuned controller at the sky: other winds, static error, bands and budgets.
 void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
   const TrackingProblem& problem = section.problem;
   control::LoopEvaluator evaluator = make_evaluator(problem);
@@ -82,12 +82,12 @@ void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
   Mission in_this_wind = mission;
   in_this_wind.wind = problem.wind;
   section.torque_limited_wind_speed = torque_limited_wind_speed(in_this_wind);
-  section.static_bending = static_bending(problem);
+  section.static_error = static_boresight_error(problem, controller);
   for (const auto& band : mission.bands) {
     section.losses.push_back({band,
                               pointing_loss_db(section.design.boresight_rms, band.beamwidth,
                                                LossConvention::mean_loss_two_axes),
-                              pointing_loss_db(section.static_bending, band.beamwidth,
+                              pointing_loss_db(section.static_error, band.beamwidth,
                                                LossConvention::mean_loss_one_axis)});
   }
   const auto speeds =

@@ -73,11 +73,12 @@ struct RecommendedDesign {
   double flexure_rms = 0.0;
   /// torque_limited_wind_speed.
   double torque_limited_wind_speed = std::numeric_limits<double>::infinity();
-  double static_bending = 0.0;  // rad under the mean wind: the pointing calibration must remove it
+  /// rad: static_boresight_error, in no rms; the pointing model must remove it.
+  double static_error = 0.0;
   struct BandLoss {
     PointingBand band;
-    double mean_loss_db = 0.0;       // two equal axes, static deflection excluded
-    double static_bending_db = 0.0;  // additional loss by the static deflection on this axis
+    double mean_loss_db = 0.0;     // two equal axes, static error excluded
+    double static_error_db = 0.0;  // additional loss by the static error on this axis
   };
   std::vector<BandLoss> losses;
   std::vector<BudgetResult> budgets;

@@ -39,13 +39,16 @@ double predicted_rms(const TrackingProblem& problem,
 
 double static_boresight_error(const TrackingProblem& problem,
                               const control::FeedbackController& controller) {
-  // rad/s, as many as the evaluator requires. Lower ones lose digits: the free antenna's angle in a
-  // steady torque grows without bound.
-  const Eigen::ArrayXd far_below = Eigen::Array3d(3e-5, 6e-5, 1.2e-4);
+  const auto* loops = std::get_if<control::Controller>(&controller);
+  control::ControlledAntenna loop(
+      problem.plant,
+      loops != nullptr ? control::to_state_space(*loops) : std::get<plant::StateSpace>(controller),
+      problem.delay);
+  // Lower frequencies lose digits: the free antenna's angle in a steady torque grows without bound.
+  constexpr double far_below = 3e-5;  // rad/s
   const double torque =
       plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
-  return std::sqrt(wind_transmission(problem, controller, far_below)[0]) * std::abs(torque) /
-         problem.gear_ratio;
+  return std::abs(loop.at(far_below).boresight_by_wind * torque) / problem.gear_ratio;
 }
 
 }  // namespace boresight::design

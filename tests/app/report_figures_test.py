@@ -171,7 +171,7 @@ class Law(Near):
         self.assertNear(total["x"][0], math.hypot(*parts["x"]), 1e-5)
         self.assertNear(parts["x"][0], self.design["wind_rms_mdeg"], 1e-5)
         self.assertNear(parts["x"][1], self.design["noise_rms_mdeg"], 1e-5)
-        self.assertNear(apart["x"][0], self.found["tuning"]["static_bending_mdeg"], 1e-5)
+        self.assertNear(apart["x"][0], self.found["tuning"]["static_error_mdeg"], 1e-5)
 
     def test_uncertainty_budget_has_the_contributions_of_the_table(self):
         panels = self.figures["stated-uncertainty"]["panels"]

@@ -131,7 +131,7 @@ TEST(ErrorBudgetFigure, HasTheTotalBesideItsPartsAndTheBudgetsAsLines) {
   errors.wind = 0.3 * millidegree;
   errors.noise = 0.4 * millidegree;
   errors.total = 0.5 * millidegree;
-  errors.static_flexure = 1.2 * millidegree;
+  errors.static_error = 1.2 * millidegree;
   design::PointingBudget budget;
   budget.band = "Ka";
   budget.name = "0.1 dB mean loss";

@@ -44,7 +44,7 @@ Report tuned_report() {
   section.design = design_of(0.5);
   section.design_speed = 12.0;
   section.torque_limited_wind_speed = 25.7;
-  section.static_bending = 1.5 * millidegree;
+  section.static_error = 1.5 * millidegree;
   section.wind_alternatives = {{plant::WindModel::uniform, 1e-5}};
   report.tuning = std::move(section);
   return report;

@@ -34,11 +34,11 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   ASSERT_TRUE(study);
   EXPECT_EQ(study->wind_speed, problem.wind.mean_speed);
   EXPECT_EQ(study->simulated.controller, "LQG, order 2");
-  EXPECT_NEAR(study->simulated.simulated_rms() / simulated->own().simulated_rms(), 1.0, 1e-3);
+  EXPECT_NEAR(study->simulated.simulated_rms() / simulated->own().simulated_rms(), 1.0, 1e-4);
   EXPECT_NEAR(study->simulated.result.wind.static_error / simulated->result.wind.static_error, 1.0,
-              1e-4);
+              1e-5);
   ASSERT_TRUE(study->change);
-  EXPECT_NEAR(study->change->value, 0.0, 1e-3);
+  EXPECT_NEAR(study->change->value, 0.0, 1e-4);
   ASSERT_TRUE(study->simulated.result.slew);
   EXPECT_EQ(study->limit_cycle_free,
             is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));

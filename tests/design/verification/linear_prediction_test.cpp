@@ -30,11 +30,12 @@ TEST(LinearPrediction, IsTheSameOfLoopsAndOfTheirSampledForm) {
   const Eigen::ArrayXd loops = wind_transmission(problem, leaky_controller(), frequency);
   const Eigen::ArrayXd states = wind_transmission(problem, sampled(leaky_controller()), frequency);
   for (Eigen::Index i = 0; i < frequency.size(); ++i) {
-    EXPECT_NEAR(states[i] / loops[i], 1.0, 2e-3) << frequency[i];
+    EXPECT_NEAR(states[i] / loops[i], 1.0, 1e-6 + 1e-3 * frequency[i] * frequency[i])
+        << frequency[i];
   }
   EXPECT_NEAR(predicted_rms(problem, sampled(leaky_controller())) /
                   predicted_rms(problem, leaky_controller()),
-              1.0, 0.01);
+              1.0, 1e-3);
 }
 
 // By the spectrum in the band, and by the covariance of the sampled loop in wind by its filter.
@@ -46,7 +47,7 @@ TEST(LinearPrediction, OfAStateSpaceIsThatOfItsCovariance) {
   const auto controller = sampled(leaky_controller());
   const auto evaluated =
       setting.evaluate(plant::renamed(controller, {{"valve_demand", "valve_command"}}));
-  EXPECT_NEAR(predicted_rms(problem, controller) / evaluated.boresight_rms, 1.0, 0.01);
+  EXPECT_NEAR(predicted_rms(problem, controller) / evaluated.boresight_rms, 1.0, 1e-3);
 }
 
 // A loop that integrates the angle holds the encoder still, and the structure bends beyond it.
@@ -54,7 +55,7 @@ TEST(LinearPrediction, StaticErrorOfAnIntegratingLoopIsTheFlexure) {
   const TrackingProblem problem = reference::tracking_problem();
   const double flexure = std::abs(static_bending(problem));
   EXPECT_NEAR(static_boresight_error(problem, reference::cautious_gains()), flexure,
-              1e-4 * flexure);
+              1e-5 * flexure);
 }
 
 // Of one without, the mean torque's leakage flow is a rate error that the position error commands:
@@ -69,8 +70,8 @@ TEST(LinearPrediction, StaticErrorOfALeakyLoopIsThatOfItsGain) {
   const double static_gain = control::gain(controller, "kr") * control::gain(controller, "kp");
   const double encoder = demand / static_gain / problem.gear_ratio;
   const double expected = std::abs(static_bending(problem)) + encoder;
-  EXPECT_NEAR(static_boresight_error(problem, controller), expected, 1e-4 * expected);
-  EXPECT_NEAR(static_boresight_error(problem, sampled(controller)), expected, 1e-4 * expected);
+  EXPECT_NEAR(static_boresight_error(problem, controller), expected, 1e-5 * expected);
+  EXPECT_NEAR(static_boresight_error(problem, sampled(controller)), expected, 1e-5 * expected);
   EXPECT_GT(encoder, 0.05 * expected);
 }
 

@@ -135,7 +135,7 @@ TEST(SimulatedLoop, RunsAStateSpaceAsTheLoopsThatItIsOf) {
   ASSERT_EQ(expected.status, RunStatus::complete) << expected.message;
   ASSERT_EQ(found.status, RunStatus::complete) << found.message;
   EXPECT_LT((found.boresight_error - expected.boresight_error).cwiseAbs().maxCoeff(),
-            1e-3 * rms(expected.boresight_error));
+            1e-4 * rms(expected.boresight_error));
   const LoopRun linear = run_linear_loop(same, course);
   EXPECT_LT((linear.boresight_error - run_linear_loop(loop, course).boresight_error)
                 .cwiseAbs()

@@ -129,7 +129,6 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
                           *report.limit_cycle / millidegree)
             : std::string("does not complete a run in still air")));
   }
-  sentences.insert(sentences.end(), report.bounds.begin(), report.bounds.end());
   const auto& first = report.plan.stages.front();
   const auto& last = report.plan.stages.back();
   const double sky = io::gear_ratio(antenna) * millidegree;
@@ -158,6 +157,7 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
                     report.wind_speed, report.wind_model, 100.0 * report.options.confidence,
                     range(last.expected.boresight_rms, sky, 3)));
   }
+  sentences.insert(sentences.end(), report.bounds.begin(), report.bounds.end());
 }
 
 }  // namespace

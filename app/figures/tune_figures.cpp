@@ -199,6 +199,7 @@ std::vector<Figure> limit_figures(const design::PointingLimit& limit) {
     add(fmt::format("LQG, S valve <= {:g}", limit.peak_limit), limit.margin_limited->design);
   }
   if (limit.robustified) add("LQG, robust over the plants", limit.robustified->design);
+  if (limit.refined) add("state space, refined", *limit.refined);
   for (const auto& controller : limit.controllers) add(controller.name, controller.design);
   panel.series = {std::move(nominal), std::move(worst)};
   panel.lines.push_back(

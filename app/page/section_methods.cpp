@@ -75,8 +75,10 @@ constexpr std::array entries = std::to_array<Entry>({
      {"lower bound over all linear sampled controllers of equal control effort; LQG designs",
       "design/limits/pointing_limit.hpp"}},
     {"A state-space controller",
-     {"robust LQG that is stable while friction holds the motor, reduced in its closed loop",
-      "design/limits/lqg_search.hpp"}},
+     {"robust LQG that is stable while friction holds the motor, reduced in its closed loop, "
+      "refined "
+      "by gradient over the plants",
+      "design/limits/controller_refinement.hpp"}},
     {"In the time domain",
      {"nonlinear simulation with synthesised wind; each effect switched off in turn",
       "design/verification/nonlinear_verification.hpp"}},

@@ -58,6 +58,7 @@ Document document_of(const design::PointingLimit& limit) {
   if (limit.robustified) {
     rows.push_back(cells("LQG, robust over the plants", limit.robustified->design));
   }
+  if (limit.refined) rows.push_back(cells("state space, refined", *limit.refined));
   for (const auto& controller : limit.controllers) {
     rows.push_back(controller.design.nominal.stable() ? cells(controller.name, controller.design)
                                                       : Row{controller.name, "unstable"});

@@ -25,22 +25,31 @@ double compared_rms(const design::SimulatedCandidate& one) {
   return one.effect().rms(one.result.wind.predicted_rms);
 }
 
+bool settles(const design::StateSpaceStudy& study) {
+  const auto& slew = study.simulated.result.slew;
+  return !slew || slew->settling_time;
+}
+
 bool is_better(const design::StateSpaceStudy& study) {
-  return study.limit_cycle_free && study.change && study.change->upper < 0.0;
+  return study.limit_cycle_free && settles(study) && study.change && study.change->upper < 0.0;
 }
 
 std::string verdict(const design::StateSpaceStudy& study, const design::SimulatedCandidate& loops) {
   if (!study.change) return "No verdict: a run did not complete.";
   const std::string figures = fmt::format(
-      "with the limit cycle in quadrature the LQG has {:.3f} mdeg rms, {} {:.3f} ({}, 95 % {} to "
-      "{}).",
+      "with the limit cycle in quadrature it has {:.3f} mdeg rms, {} {:.3f} ({}, 95 % {} to {}).",
       compared_rms(study.simulated) / millidegree, loops.controller,
       compared_rms(loops) / millidegree, signed_percent(study.change->value),
       signed_percent(study.change->lower), signed_percent(study.change->upper));
   if (is_better(study)) return "Better: " + figures;
-  return study.limit_cycle_free
-             ? "No advantage: " + figures
-             : "Not usable, as it limit-cycles beyond the tightest budget: " + figures;
+  if (!study.limit_cycle_free) {
+    return "Not usable, as it limit-cycles beyond the tightest budget: " + figures;
+  }
+  if (!settles(study)) {
+    return "No advantage, as it does not settle within the tightest budget after a slew: " +
+           figures;
+  }
+  return "No advantage: " + figures;
 }
 
 }  // namespace
@@ -71,9 +80,10 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   Document text = heading("A state-space controller instead of loops");
   text += essential(wrapped(verdict(study, own), "  "));
   text += wrapped(
-      fmt::format("The LQG is that of the table above that is robust over the plants, reduced to "
-                  "the lowest order that meets the same constraints. It ran on the nonlinear "
-                  "antenna as the recommended loops did, in the same wind of {:.3g} m/s.",
+      fmt::format("It is the LQG of the table above that is robust over the plants, reduced to the "
+                  "lowest order that meets the same constraints and refined by gradient over the "
+                  "plants. It ran on the nonlinear antenna as the recommended loops did, in the "
+                  "same wind of {:.3g} m/s.",
                   study.wind_speed),
       "  ");
   text += essential(table(rows, "l"));

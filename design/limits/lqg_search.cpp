@@ -9,17 +9,12 @@
 
 #include <boresight/design/limits/controller_reduction.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
-#include <boresight/numerics/eigenvalues.hpp>
-#include <boresight/numerics/error.hpp>
-#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::design {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-// Peaks are read off a parabola between frequencies: what it can miss is kept in hand.
-constexpr double reserve = 1e-3;
 // Of the logarithm of the command weight: finer changes the rms by less than 1e-3.
 constexpr double weight_tolerance = 0.01;
 constexpr double weight_step = 0.8;
@@ -139,25 +134,20 @@ struct Trial {
 
 class Search {
  public:
-  // The LQG of `model`, evaluated on `plants`.
-  Search(const SampledSetting& model, const std::vector<SampledSetting>& plants,
-         const std::vector<SampledSetting>& at_standstill, const LqgSearchGoals& goals,
-         unsigned threads)
-      : model_(model),
-        plants_(plants),
-        at_standstill_(at_standstill),
-        goals_(goals),
-        threads_(threads) {
+  // The LQG of `model`, evaluated under the constraints.
+  Search(const SampledSetting& model, const RobustConstraints& constraints)
+      : model_(model), constraints_(constraints) {
     // Both terms of the cost are of one size six steps above when the effort is what is allowed.
     const double slack = model.evaluate(weighted_lqg(model, {.command_weight = 1.0})).boresight_rms;
-    first_weight_ = 2.0 * std::log(slack / goals.control_effort) - 6.0;
+    first_weight_ = 2.0 * std::log(slack / constraints.goals().control_effort) - 6.0;
     spring_unit_ = slack * slack * model.problem().sample_time;
     result_.boresight_rms = infinity;
   }
 
   // White noise of the effort that is allowed.
   double input_unit() const {
-    return goals_.control_effort * goals_.control_effort * model_.problem().sample_time;
+    const double effort = constraints_.goals().control_effort;
+    return effort * effort * model_.problem().sample_time;
   }
   double spring_unit() const { return spring_unit_; }
   // The same deflection on the oil spring, as torque.
@@ -172,8 +162,8 @@ class Search {
     Trial kept = min_weight(weights);
     if (kept.excess > 0.0) return infinity;
     // One plant's goals have no gaps worth the time: the next search begins about here.
-    if (plants_.size() == 1) first_weight_ = kept.log_weight - weight_step;
-    const double rms = largest_rms(kept.controller);
+    if (constraints_.plants().size() == 1) first_weight_ = kept.log_weight - weight_step;
+    const double rms = constraints_.largest_rms(kept.controller);
     if (rms < result_.boresight_rms) {
       weights.command_weight = std::exp(kept.log_weight);
       result_.found = true;
@@ -198,8 +188,8 @@ class Search {
     for (Eigen::Index order = 1; order < reduction.largest_order(); ++order) {
       plant::StateSpace candidate = reduction.of_order(order);
       ++found.candidates;
-      if (excess(candidate) > 0.0) continue;
-      const double rms = largest_rms(candidate);
+      if (constraints_.excess(candidate) > 0.0) continue;
+      const double rms = constraints_.largest_rms(candidate);
       if (rms > reduced_rms * result_.boresight_rms) continue;
       found.controller = std::move(candidate);
       found.boresight_rms = rms;
@@ -228,7 +218,7 @@ class Search {
       problem.r(0, 0) = own + std::exp(next);
       trial.controller =
           control::lqg_controller(problem, control::lq_regulator(problem), estimator);
-      trial.excess = excess(trial.controller);
+      trial.excess = constraints_.excess(trial.controller);
       ++result_.candidates;
       (trial.excess <= 0.0 ? above : below) = std::move(trial);
       if (std::isinf(below.log_weight)) {
@@ -245,64 +235,13 @@ class Search {
     return above;
   }
 
-  double excess(const plant::StateSpace& controller) const {
-    constexpr double unstable = 3.0;
-    const Eigen::ArrayXXcd response =
-        SampledSetting::controller_response(controller, model_.frequency());
-    double peak = 0.0;
-    for (const SampledSetting& one : plants_) {
-      peak = std::max(peak, one.highest_peak(response).magnitude);
-    }
-    double held = 0.0;
-    for (const SampledSetting& one : at_standstill_) {
-      held = std::max(held, one.highest_peak(response).magnitude);
-    }
-    const double of_peak =
-        std::log(std::max(peak / goals_.sensitivity_peak, held / goals_.standstill_peak)) + reserve;
-    if (of_peak > 0.0) return std::min(of_peak, unstable);
-    const bool steady = std::ranges::all_of(at_standstill_, [&](const SampledSetting& one) {
-      return one.spectral_radius(controller) < 1.0;
-    });
-    if (!steady || numerics::spectral_radius(controller.a) >= 1.0) {
-      return unstable;
-    }
-    std::vector<double> effort(plants_.size());
-    numerics::for_each_index(plants_.size(), threads_, [&](std::size_t i) {
-      const bool stable = plants_[i].spectral_radius(controller) < 1.0;
-      effort[i] = stable ? plants_[i].control_effort(controller) : infinity;
-    });
-    const double largest = *std::ranges::max_element(effort);
-    return std::min(std::max(of_peak, std::log(largest / goals_.control_effort) + 1e-6), unstable);
-  }
-
-  // Of a controller that is stable on all.
-  double largest_rms(const plant::StateSpace& controller) const {
-    std::vector<double> rms(plants_.size());
-    numerics::for_each_index(rms.size(), threads_,
-                             [&](std::size_t i) { rms[i] = plants_[i].boresight_rms(controller); });
-    return *std::ranges::max_element(rms);
-  }
-
   const SampledSetting& model_;
-  const std::vector<SampledSetting>& plants_;
-  const std::vector<SampledSetting>& at_standstill_;
-  LqgSearchGoals goals_;
-  unsigned threads_;
+  const RobustConstraints& constraints_;
   std::optional<UnitTerms> terms_;
   double first_weight_ = 0.0;
   double spring_unit_ = 0.0;
   LqgSearchResult result_;
 };
-
-void check(const LqgSearchGoals& goals) {
-  if (!(goals.sensitivity_peak > 1.0) || !(goals.standstill_peak > 1.0) ||
-      !(goals.control_effort > 0.0)) {
-    throw InvalidInput(
-        fmt::format("LQG search: expected peaks of the sensitivity above 1 and a valve_effort "
-                    "above 0, found {}, {} at standstill and {} rad/s",
-                    goals.sensitivity_peak, goals.standstill_peak, goals.control_effort));
-  }
-}
 
 }  // namespace
 
@@ -313,10 +252,10 @@ plant::StateSpace weighted_lqg(const SampledSetting& setting, const LqgWeights& 
                                  control::state_estimator(problem));
 }
 
-LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const LqgSearchGoals& goals) {
-  check(goals);
+LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const SampledLoopGoals& goals) {
   const std::vector<SampledSetting> itself{nominal}, none;
-  Search search(nominal, itself, none, goals, 1);
+  const RobustConstraints constraints(itself, none, goals, 1);
+  Search search(nominal, constraints);
   const auto rms_at = [&](double log_noise) {
     return search.rms_at({.input_noise = search.input_unit() * std::exp(log_noise)});
   };
@@ -350,20 +289,8 @@ LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const LqgSearc
 }
 
 LqgSearchResult search_robust_lqg(const SampledSetting& model,
-                                  const std::vector<SampledSetting>& plants,
-                                  const std::vector<SampledSetting>& at_standstill,
-                                  const LqgSearchGoals& goals, unsigned threads) {
-  check(goals);
-  if (plants.empty()) throw InvalidInput("LQG search: expected at least one plant, found none");
-  for (const auto* settings : {&plants, &at_standstill}) {
-    for (const SampledSetting& one : *settings) {
-      if (one.frequency().size() != model.frequency().size() ||
-          (one.frequency() != model.frequency()).any()) {
-        throw InvalidInput("LQG search: expected the same frequencies in every setting");
-      }
-    }
-  }
-  Search search(model, plants, at_standstill, goals, threads);
+                                  const RobustConstraints& constraints) {
+  Search search(model, constraints);
   const auto rms_at = [&](const std::array<double, 5>& place) {
     return search.rms_at({.input_noise = search.input_unit() * std::exp(place[0]),
                           .spring_noise = search.spring_unit() * std::exp(place[1]),

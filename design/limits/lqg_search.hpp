@@ -1,18 +1,8 @@
 #pragma once
 
-#include <vector>
-
-#include <boresight/design/limits/sampled_setting.hpp>
+#include <boresight/design/limits/robust_constraints.hpp>
 
 namespace boresight::design {
-
-/// Constraints that an LQG design must meet on every plant.
-struct LqgSearchGoals {
-  double sensitivity_peak = 2.0;  // largest |S| at the valve command
-  double control_effort = 0.6;    // rad/s rms of the noise-driven command
-  /// Largest |S| at the valve command on the plants at standstill (Constraints::standstill).
-  double standstill_peak = 3.0;
-};
 
 /// Search variables: fictitious noise and additional costs of the LQG design.
 struct LqgWeights {
@@ -54,20 +44,15 @@ plant::StateSpace weighted_lqg(const SampledSetting& setting, const LqgWeights& 
 /// noise it takes the smallest feasible command weight; the input noise is found by a scan of eight
 /// decades and a golden section. The result is a benchmark, not a bound: the family does not
 /// contain all controllers, and the search does not prove optimality.
-/// @throws InvalidInput for a peak not above 1 or an effort not above 0.
-LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const LqgSearchGoals& goals);
+/// @throws as validate.
+LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const SampledLoopGoals& goals);
 
-/// Searches an LQG of `model` that is stable and within the constraints on every one of `plants`,
-/// with small worst-case rms, and stable by itself. On the plants `at_standstill` the loop must be
-/// stable with its peak within LqgSearchGoals::standstill_peak. A compass search in the logarithms
-/// varies all weights but the command weight, which is again the smallest feasible one. The
-/// controller found is then reduced (ControllerReduction) to the lowest order that meets the same
-/// constraints with an rms at most 1 % larger. The result is also a benchmark. Deterministic,
-/// whatever the number of threads.
-/// @throws InvalidInput also without plants and for plants of other frequencies than the model's.
+/// Searches an LQG of `model` that meets the constraints, with small worst-case rms. A compass
+/// search in the logarithms varies all weights but the command weight, which is again the smallest
+/// feasible one. The controller found is then reduced (ControllerReduction) to the lowest order
+/// that meets the same constraints with an rms at most 1 % larger. The result is also a benchmark.
+/// Deterministic, whatever the number of threads.
 LqgSearchResult search_robust_lqg(const SampledSetting& model,
-                                  const std::vector<SampledSetting>& plants,
-                                  const std::vector<SampledSetting>& at_standstill,
-                                  const LqgSearchGoals& goals, unsigned threads);
+                                  const RobustConstraints& constraints);
 
 }  // namespace boresight::design

@@ -6,6 +6,7 @@
 
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/lqg/noise_effort_lqg.hpp>
+#include <boresight/design/limits/controller_refinement.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -75,7 +76,7 @@ class Study {
   }
 
   const SampledSetting& nominal() const { return settings_.front(); }
-  const LqgSearchGoals& goals() const { return goals_; }
+  const SampledLoopGoals& goals() const { return goals_; }
   const plant::ShapingFilter& filter() const { return filter_; }
 
   SampledDesign evaluate(plant::StateSpace controller) const {
@@ -115,7 +116,14 @@ class Study {
   }
   std::optional<LimitedLqg> robustified() const {
     if (settings_.size() == 1) return std::nullopt;
-    return limited(search_robust_lqg(nominal(), settings_, at_standstill_, goals_, threads_));
+    return limited(search_robust_lqg(nominal(), constraints()));
+  }
+  std::optional<SampledDesign> refined(const LimitedLqg& robust) const {
+    try {
+      return evaluate(refine_controller(robust.design.controller, constraints()).controller);
+    } catch (const NumericalFailure&) {
+      return std::nullopt;  // of poles that do not part
+    }
   }
 
   // The command weight at which the LQG that charges all of the command has the effort allowed:
@@ -208,9 +216,11 @@ class Study {
   }
 
  private:
+  RobustConstraints constraints() const { return {settings_, at_standstill_, goals_, threads_}; }
+
   unsigned threads_;
   double ratio_;
-  LqgSearchGoals goals_;
+  SampledLoopGoals goals_;
   plant::ShapingFilter filter_;
   std::vector<SampledSetting> settings_;  // nominal, then the members
   std::vector<SampledSetting> at_standstill_;
@@ -282,6 +292,7 @@ PointingLimit pointing_limit(const TrackingProblem& problem, const Constraints& 
   study.bound(limit);
   limit.margin_limited = study.margin_limited();
   limit.robustified = study.robustified();
+  if (limit.robustified) limit.refined = study.refined(*limit.robustified);
   limit.full_information_rms = study.full_information_rms();
   limit.flexure_rms = flexure_rms(problem);
   for (const DescribedController& named : controllers)

@@ -11,16 +11,16 @@ std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
                                                  const TrackingProblem& problem,
                                                  const PointingLimit& limit,
                                                  const TimeDomainStudy& loops, unsigned threads) {
-  if (!limit.robustified || !mission.antenna.nonlinear) return std::nullopt;
+  if (!limit.refined || !mission.antenna.nonlinear) return std::nullopt;
   StateSpaceStudy study;
-  study.controller = control::antenna_state_space_controller(limit.robustified->design.controller);
+  study.controller = control::antenna_state_space_controller(limit.refined->controller);
   study.wind_speed = problem.wind.mean_speed;
   NonlinearVerificationOptions options = loops.options;
   options.explain = options.second_integrator = false;
   options.threads = threads;
-  auto simulated = compare_in_time_domain(mission, problem,
-                                          fmt::format("LQG, order {}", study.controller.a.rows()),
-                                          study.controller, options);
+  auto simulated = compare_in_time_domain(
+      mission, problem, fmt::format("state space, order {}", study.controller.a.rows()),
+      study.controller, options);
   if (!simulated) return std::nullopt;
   study.simulated = std::move(*simulated);
   study.limit_cycle_free =

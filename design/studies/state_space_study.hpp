@@ -8,13 +8,13 @@
 
 namespace boresight::design {
 
-/// A state-space controller instead of loops with gains: the robust LQG of a PointingLimit
-/// (PointingLimit::robustified), on the nonlinear antenna.
+/// A state-space controller instead of loops with gains: the refined one of a PointingLimit
+/// (PointingLimit::refined), on the nonlinear antenna.
 struct StateSpaceStudy {
   /// Sampled, in the form of control::antenna_state_space_controller.
   plant::StateSpace controller;
   double wind_speed = 0.0;  // m/s, mean
-  /// Of the name "LQG, order N".
+  /// Of the name "state space, order N".
   SimulatedCandidate simulated;
   /// is_limit_cycle_free within the tightest budget.
   bool limit_cycle_free = false;
@@ -22,10 +22,10 @@ struct StateSpaceStudy {
   std::optional<numerics::Interval> change;
 };
 
-/// Simulates the robust LQG of a limit as the recommended loops were simulated: by the same options
-/// and in the same winds, without separate influences. The problem is that of both. None without a
-/// robust LQG or Antenna::nonlinear. Takes some 4 s of computing on the 70-m antenna, over
-/// `threads`. The result does not depend on their number. @throws as verify_in_time.
+/// Simulates the refined controller of a limit as the recommended loops were simulated: by the same
+/// options and in the same winds, without separate influences. The problem is that of both. None
+/// without a refined controller or Antenna::nonlinear. Takes some 4 s of computing on the 70-m
+/// antenna, over `threads`. The result does not depend on their number. @throws as verify_in_time.
 std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
                                                  const TrackingProblem& problem,
                                                  const PointingLimit& limit,

@@ -6,9 +6,9 @@ namespace boresight::io {
 void describe(Visitor& v, const design::StateSpaceStudy& study) {
   namespace unit = key_units;
   v.defined_as("state_space_study",
-               "A state-space controller instead of loops with gains: the robust LQG of `limit`, "
+               "A state-space controller instead of loops with gains: `refined` of `limit`, "
                "on the nonlinear antenna. linear_models has its matrices.");
-  v.text("name", study.simulated.controller, "LQG and its order.");
+  v.text("name", study.simulated.controller, "With its order.");
   v.number("wind_speed", study.wind_speed, unit::metre_per_second, "Mean.", {.minimum = 0.0});
   v.object("runs", study.simulated.result, "Its runs, as those of the loops in `time_domain`.");
   v.object("expected_rms", study.simulated.rms, "Over the same records of wind as the loops'.");

@@ -20,7 +20,7 @@ using testing::HasSubstr;
 design::StateSpaceStudy study() {
   design::StateSpaceStudy study;
   study.wind_speed = 10.0;
-  study.simulated.controller = "LQG, order 9";
+  study.simulated.controller = "state space, order 9";
   study.simulated.rms.emplace().rms.value = 0.2 * millidegree;
   study.simulated.result.wind.static_error = 0.75 * millidegree;
   study.simulated.result.wind.predicted_rms = 0.19 * millidegree;
@@ -49,7 +49,7 @@ TimeDomainSection loops() {
 
 TEST(TextStateSpace, PutsItBesideTheLoops) {
   const std::string text = to_text(document_of(study(), loops()));
-  EXPECT_THAT(text, HasSubstr("FULL+L+C, robust  LQG, order 9"));
+  EXPECT_THAT(text, HasSubstr("FULL+L+C, robust  state space, order 9"));
   EXPECT_THAT(text, ContainsRegex("rms, simulated +0[.]3100 +0[.]2000"));
   EXPECT_THAT(text, ContainsRegex("limit cycle at rest +- +[+]-0[.]0600"));
   // The root of 0.2^2 + 0.06^2/2.
@@ -63,16 +63,25 @@ TEST(TextStateSpace, LeadsWithItsVerdict) {
   const auto verdict = [](const design::StateSpaceStudy& study) {
     return on_one_line(to_text(document_of(study, loops())));
   };
-  EXPECT_THAT(verdict(study()), HasSubstr("Better: with the limit cycle in quadrature the LQG has "
-                                          "0.204 mdeg rms, FULL+L+C, robust 0.310 (-35.0 %, 95 % "
-                                          "-40.0 % to -30.0 %)."));
-  EXPECT_THAT(state_space_advantage(study(), loops()),
-              HasSubstr("(LQG, order 9) would be better, but cannot be commissioned loop by loop: "
-                        "0.204 mdeg rms"));
+  EXPECT_THAT(verdict(study()), HasSubstr("Better: with the limit cycle in quadrature it has 0.204 "
+                                          "mdeg rms, FULL+L+C, robust 0.310 (-35.0 %, 95 % -40.0 % "
+                                          "to -30.0 %)."));
+  EXPECT_THAT(
+      state_space_advantage(study(), loops()),
+      HasSubstr("(state space, order 9) would be better, but cannot be commissioned loop by loop: "
+                "0.204 mdeg rms"));
   auto cycling = study();
   cycling.limit_cycle_free = false;
   EXPECT_THAT(verdict(cycling), HasSubstr("Not usable, as it limit-cycles beyond the tightest"));
   EXPECT_EQ(state_space_advantage(cycling, loops()), "");
+  auto unsettled = study();
+  unsettled.simulated.result.slew.emplace();
+  EXPECT_THAT(verdict(unsettled),
+              HasSubstr("No advantage, as it does not settle within the tightest budget after a "
+                        "slew: with the limit cycle"));
+  EXPECT_EQ(state_space_advantage(unsettled, loops()), "");
+  unsettled.simulated.result.slew->settling_time = 3.0;
+  EXPECT_THAT(verdict(unsettled), HasSubstr("Better: "));
   auto even = study();
   even.change->upper = 0.01;
   EXPECT_THAT(verdict(even), HasSubstr("No advantage: with the limit cycle in quadrature"));

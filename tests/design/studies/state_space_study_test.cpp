@@ -10,12 +10,12 @@
 namespace boresight::design {
 namespace {
 
-// As a benchmark: no LQG, but loops as a state space, which must do what the loops do.
+// As a benchmark: no search, but loops as a state space, which must do what the loops do.
 PointingLimit limit_of(const TrackingProblem& problem, const control::Controller& controller) {
   const double sample_time = problem.delay / 1.5;
   PointingLimit limit;
-  limit.robustified.emplace();
-  limit.robustified->design.controller =
+  limit.refined.emplace();
+  limit.refined->controller =
       plant::renamed(plant::subsystem(control::sampled_controller(controller, sample_time),
                                       {"tachometer", "encoder"}, {"valve_demand"}),
                      {{"valve_demand", "valve_command"}});
@@ -33,7 +33,7 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   const auto study = study_state_space(mission, problem, limit_of(problem, loops), *simulated, 2);
   ASSERT_TRUE(study);
   EXPECT_EQ(study->wind_speed, problem.wind.mean_speed);
-  EXPECT_EQ(study->simulated.controller, "LQG, order 2");
+  EXPECT_EQ(study->simulated.controller, "state space, order 2");
   EXPECT_NEAR(study->simulated.simulated_rms() / simulated->own().simulated_rms(), 1.0, 1e-4);
   EXPECT_NEAR(study->simulated.result.wind.static_error / simulated->result.wind.static_error, 1.0,
               1e-5);

@@ -1,0 +1,198 @@
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/design/limits/parallel_sections.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+
+namespace boresight::design {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+
+constexpr Index sensors = ParallelSections::sensors;
+// Parameters of a section of second and of first order: denominator and numerators.
+constexpr Index of_pair = 2 + 2 * sensors, of_single = 1 + sensors;
+// How far within stability the conditions keep the poles.
+constexpr double reserve = 2e-3;
+
+const std::vector<std::string>& sensor_names() {
+  static const std::vector<std::string> names{"tachometer", "encoder", "motor_torque"};
+  return names;
+}
+
+// A pole in delta and its residues per sensor.
+struct Pole {
+  Complex place;
+  Eigen::Vector3cd residue;
+};
+
+}  // namespace
+
+ParallelSections::ParallelSections(const plant::StateSpace& controller)
+    : sample_time_(controller.sample_time) {
+  if (!(sample_time_ > 0.0)) {
+    throw InvalidInput("parallel sections: expected a sampled controller, found a continuous one");
+  }
+  const Index output = plant::output_index(controller, "valve_command");
+  const auto modes = numerics::eigen_decomposition(controller.a);
+  if (controller.a.rows() > 0 && !(modes.values.cwiseAbs().maxCoeff() < 1.0)) {
+    throw InvalidInput(
+        fmt::format("parallel sections: expected a controller that is stable by itself, found a "
+                    "pole of magnitude {:.6f}",
+                    modes.values.cwiseAbs().maxCoeff()));
+  }
+  Eigen::MatrixXcd into = Eigen::MatrixXcd::Zero(controller.a.rows(), sensors);
+  Eigen::Vector3d direct = Eigen::Vector3d::Zero();
+  for (Index i = 0; i < sensors; ++i) {
+    const auto found = std::ranges::find(controller.inputs, sensor_names()[std::size_t(i)]);
+    if (found == controller.inputs.end()) continue;
+    const Index column = found - controller.inputs.begin();
+    into.col(i) = modes.left.adjoint() * controller.b.col(column);
+    direct[i] = controller.d(output, column);
+  }
+  const Eigen::RowVectorXcd out = controller.c.row(output) * modes.right;
+  std::vector<Pole> real, upper;
+  for (Index i = 0; i < modes.values.size(); ++i) {
+    const Complex place = (modes.values[i] - 1.0) / sample_time_;
+    const Eigen::Vector3cd residue = out[i] * into.row(i).transpose() / sample_time_;
+    if (std::abs(place.imag()) <= 1e-12 * std::abs(place)) {
+      real.push_back({place.real(), residue});
+    } else if (place.imag() > 0.0) {
+      upper.push_back({place, residue});
+    }
+  }
+  // Real poles pair up with the next in size; the slowest is left over.
+  std::ranges::sort(real, {}, [](const Pole& one) { return std::abs(one.place); });
+  singles_ = static_cast<Index>(real.size() % 2);
+  pairs_ = static_cast<Index>(upper.size() + real.size() / 2);
+  parameters_.resize(of_pair * pairs_ + of_single * singles_ + sensors);
+  Index next = 0;
+  const auto add = [&](const Pole& one, const Pole& other) {
+    parameters_[next++] = std::log(-(one.place + other.place).real());
+    parameters_[next++] = std::log((one.place * other.place).real());
+    for (Index i = 0; i < sensors; ++i) {
+      parameters_[next++] = (one.residue[i] + other.residue[i]).real();
+      parameters_[next++] = -(one.residue[i] * other.place + other.residue[i] * one.place).real();
+    }
+  };
+  for (const Pole& one : upper) add(one, {std::conj(one.place), one.residue.conjugate()});
+  for (std::size_t i = real.size() % 2; i + 1 < real.size(); i += 2) add(real[i], real[i + 1]);
+  if (singles_ == 1) {
+    parameters_[next++] = std::log(-real.front().place.real());
+    for (Index i = 0; i < sensors; ++i) parameters_[next++] = real.front().residue[i].real();
+  }
+  parameters_.tail(sensors) = direct;
+}
+
+plant::StateSpace ParallelSections::state_space(const Eigen::VectorXd& parameters) const {
+  const Index states = order();
+  plant::StateSpace result{Eigen::MatrixXd::Identity(states, states),
+                           Eigen::MatrixXd::Zero(states, sensors),
+                           Eigen::MatrixXd::Zero(1, states),
+                           parameters.tail(sensors).transpose(),
+                           sensor_names(),
+                           {"valve_command"},
+                           {},
+                           sample_time_};
+  Index next = 0, row = 0;
+  for (Index j = 0; j < pairs_; ++j, row += 2) {
+    const double b1 = std::exp(parameters[next]), b0 = std::exp(parameters[next + 1]);
+    const double size = std::sqrt(b0);
+    next += 2;
+    result.a(row, row) -= sample_time_ * b1;
+    result.a(row, row + 1) = sample_time_ * size;
+    result.a(row + 1, row) = -sample_time_ * size;
+    for (Index i = 0; i < sensors; ++i) {
+      result.b(row, i) = sample_time_ * parameters[next++];
+      result.b(row + 1, i) = sample_time_ * parameters[next++] / size;
+    }
+    result.c(0, row) = 1.0;
+  }
+  if (singles_ == 1) {
+    result.a(row, row) -= sample_time_ * std::exp(parameters[next++]);
+    for (Index i = 0; i < sensors; ++i) result.b(row, i) = sample_time_ * parameters[next++];
+    result.c(0, row) = 1.0;
+  }
+  for (Index i = 1; i <= states; ++i) result.states.push_back(fmt::format("section_state_{}", i));
+  return result;
+}
+
+ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& parameters,
+                                                      const Eigen::ArrayXd& frequency) const {
+  const Index count = frequency.size();
+  Eigen::ArrayXcd delta(count);
+  for (Index k = 0; k < count; ++k) {
+    const double half = std::sin(0.5 * frequency[k] * sample_time_);
+    delta[k] = Complex(-2.0 * half * half, std::sin(frequency[k] * sample_time_)) / sample_time_;
+  }
+  Response result;
+  result.value.resize(count, sensors);
+  for (Index i = 0; i < sensors; ++i) {
+    result.value.col(i).setConstant(parameters[parameters.size() - sensors + i]);
+    auto& derivative = result.by_parameters.at(static_cast<std::size_t>(i));
+    derivative = Eigen::MatrixXcd::Zero(count, parameters.size());
+    derivative.col(parameters.size() - sensors + i).setOnes();
+  }
+  Index next = 0;
+  for (Index j = 0; j < pairs_; ++j, next += of_pair) {
+    const double b1 = std::exp(parameters[next]), b0 = std::exp(parameters[next + 1]);
+    const Eigen::ArrayXcd inverse = (delta * (delta + b1) + b0).inverse();
+    const Eigen::ArrayXcd rising = delta * inverse;
+    for (Index i = 0; i < sensors; ++i) {
+      const Index numerator = next + 2 + 2 * i;
+      const Eigen::ArrayXcd part =
+          parameters[numerator] * rising + parameters[numerator + 1] * inverse;
+      result.value.col(i) += part;
+      auto& derivative = result.by_parameters.at(static_cast<std::size_t>(i));
+      derivative.col(next) = -b1 * part * rising;
+      derivative.col(next + 1) = -b0 * part * inverse;
+      derivative.col(numerator) = rising;
+      derivative.col(numerator + 1) = inverse;
+    }
+  }
+  if (singles_ == 1) {
+    const double b = std::exp(parameters[next]);
+    const Eigen::ArrayXcd inverse = (delta + b).inverse();
+    for (Index i = 0; i < sensors; ++i) {
+      const Eigen::ArrayXcd part = parameters[next + 1 + i] * inverse;
+      result.value.col(i) += part;
+      auto& derivative = result.by_parameters.at(static_cast<std::size_t>(i));
+      derivative.col(next) = -b * part * inverse;
+      derivative.col(next + 1 + i) = inverse;
+    }
+  }
+  return result;
+}
+
+// z = 1 + T delta within the unit circle (Jury): b1 > T b0 and 4 > 2 T b1 - T^2 b0.
+ParallelSections::Stability ParallelSections::stability(const Eigen::VectorXd& parameters) const {
+  Stability result{Eigen::VectorXd(2 * pairs_ + singles_),
+                   Eigen::MatrixXd::Zero(2 * pairs_ + singles_, parameters.size())};
+  Index next = 0, row = 0;
+  for (Index j = 0; j < pairs_; ++j, next += of_pair, row += 2) {
+    result.conditions[row] =
+        parameters[next + 1] + std::log(sample_time_) - parameters[next] + reserve;
+    result.gradients(row, next) = -1.0;
+    result.gradients(row, next + 1) = 1.0;
+    const double first = 2.0 * sample_time_ * std::exp(parameters[next]);
+    const double second = sample_time_ * sample_time_ * std::exp(parameters[next + 1]);
+    result.conditions[row + 1] = first - second - 4.0 + reserve;
+    result.gradients(row + 1, next) = first;
+    result.gradients(row + 1, next + 1) = -second;
+  }
+  if (singles_ == 1) {
+    result.conditions[row] = parameters[next] + std::log(0.5 * sample_time_) + reserve;
+    result.gradients(row, next) = 1.0;
+  }
+  return result;
+}
+
+}  // namespace boresight::design

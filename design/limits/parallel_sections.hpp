@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+
+#include <Eigen/Core>
+
+#include <boresight/plant/linear/state_space.hpp>
+
+namespace boresight::design {
+
+/// A stable sampled controller of tachometer, encoder and motor torque as a sum of sections, in
+/// terms of delta = (z - 1)/T, which keeps the digits of poles that are slow against the samples
+/// (R. H. Middleton, G. C. Goodwin, Digital Control and Estimation, 1990):
+///   K_i = d_i + sum over sections (n1_i delta + n0_i) / (delta^2 + b1 delta + b0),
+/// and, where the order is odd, a section n0_i / (delta + b). Its parameters are ln b1, ln b0 (ln
+/// b), the numerators and d: as few as any controller of the order and these sensors has, and no
+/// pole needs to be real or complex. For searches by gradient.
+class ParallelSections {
+ public:
+  static constexpr Eigen::Index sensors = 3;
+
+  /// The parameters of a controller. Its output is valve_command; a sensor that it does not read
+  /// has zeros.
+  /// @throws InvalidInput without the output or for a controller that is not sampled or not stable;
+  /// NumericalFailure as numerics::eigen_decomposition (repeated poles).
+  explicit ParallelSections(const plant::StateSpace& controller);
+
+  const Eigen::VectorXd& parameters() const { return parameters_; }
+  Eigen::Index order() const { return 2 * pairs_ + singles_; }
+
+  /// The controller of other parameters, with all three sensors as inputs. States: of each section
+  /// the output and another one of the same size.
+  plant::StateSpace state_space(const Eigen::VectorXd& parameters) const;
+
+  struct Response {
+    Eigen::ArrayXXcd value;                         // frequencies x sensors
+    std::array<Eigen::MatrixXcd, 3> by_parameters;  // per sensor: frequencies x parameters
+  };
+  Response response(const Eigen::VectorXd& parameters, const Eigen::ArrayXd& frequency) const;
+
+  /// Stable where all are negative: conditions on the sections and their gradients, conditions x
+  /// parameters.
+  struct Stability {
+    Eigen::VectorXd conditions;
+    Eigen::MatrixXd gradients;
+  };
+  Stability stability(const Eigen::VectorXd& parameters) const;
+
+ private:
+  double sample_time_ = 0.0;
+  Eigen::Index pairs_ = 0, singles_ = 0;  // sections of second and of first order
+  Eigen::VectorXd parameters_;
+};
+
+}  // namespace boresight::design

@@ -1,0 +1,84 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <boresight/design/limits/robust_constraints.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+
+namespace boresight::design {
+namespace {
+
+// Peaks are read off a parabola between frequencies: what it can miss is kept in hand.
+constexpr double reserve = 1e-3;
+constexpr double unstable = 3.0;
+
+double highest_peak(const std::vector<SampledSetting>& settings, const Eigen::ArrayXXcd& response) {
+  double peak = 0.0;
+  for (const SampledSetting& one : settings) {
+    peak = std::max(peak, one.highest_peak(response).magnitude);
+  }
+  return peak;
+}
+
+}  // namespace
+
+void validate(const SampledLoopGoals& goals) {
+  if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.control_effort > 0.0) {
+    return;
+  }
+  throw InvalidInput(
+      fmt::format("sampled loops: expected peaks of the sensitivity above 1 and a valve_effort "
+                  "above 0, found {}, {} at standstill and {} rad/s",
+                  goals.sensitivity_peak, goals.standstill_peak, goals.control_effort));
+}
+
+RobustConstraints::RobustConstraints(const std::vector<SampledSetting>& plants,
+                                     const std::vector<SampledSetting>& at_standstill,
+                                     const SampledLoopGoals& goals, unsigned threads)
+    : plants_(plants), at_standstill_(at_standstill), goals_(goals), threads_(threads) {
+  validate(goals);
+  if (plants.empty()) throw InvalidInput("sampled loops: expected at least one plant, found none");
+  const Eigen::ArrayXd& frequency = plants.front().frequency();
+  for (const auto* settings : {&plants, &at_standstill}) {
+    for (const SampledSetting& one : *settings) {
+      if (one.frequency().size() != frequency.size() || (one.frequency() != frequency).any()) {
+        throw InvalidInput("sampled loops: expected the same frequencies in every setting");
+      }
+    }
+  }
+}
+
+double RobustConstraints::excess(const plant::StateSpace& controller) const {
+  const Eigen::ArrayXXcd response =
+      SampledSetting::controller_response(controller, plants_.front().frequency());
+  const double of_peak =
+      std::log(std::max(highest_peak(plants_, response) / goals_.sensitivity_peak,
+                        highest_peak(at_standstill_, response) / goals_.standstill_peak)) +
+      reserve;
+  if (of_peak > 0.0) return std::min(of_peak, unstable);
+  const bool steady = std::ranges::all_of(at_standstill_, [&](const SampledSetting& one) {
+    return one.spectral_radius(controller) < 1.0;
+  });
+  if (!steady || numerics::spectral_radius(controller.a) >= 1.0) return unstable;
+  std::vector<double> effort(plants_.size());
+  numerics::for_each_index(plants_.size(), threads_, [&](std::size_t i) {
+    effort[i] = plants_[i].spectral_radius(controller) < 1.0
+                    ? plants_[i].control_effort(controller)
+                    : std::numeric_limits<double>::infinity();
+  });
+  const double largest = *std::ranges::max_element(effort);
+  return std::min(std::max(of_peak, std::log(largest / goals_.control_effort) + 1e-6), unstable);
+}
+
+double RobustConstraints::largest_rms(const plant::StateSpace& controller) const {
+  std::vector<double> rms(plants_.size());
+  numerics::for_each_index(rms.size(), threads_,
+                           [&](std::size_t i) { rms[i] = plants_[i].boresight_rms(controller); });
+  return *std::ranges::max_element(rms);
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include <boresight/design/limits/sampled_setting.hpp>
+
+namespace boresight::design {
+
+/// What the figures of a loop on one plant need at each frequency. Figures and their gradients with
+/// respect to the controller's response then take a few complex operations a frequency, whatever
+/// the orders of plant and controller. The exact sampled loop, as in SampledSetting. Sensors:
+/// tachometer, encoder, motor torque.
+struct SampledSpectrum {
+  Eigen::ArrayXXcd response;      // frequencies x sensors: of the command
+  Eigen::ArrayXXcd sensors;       // x 9, by rows: density of the sensors without the loop
+  Eigen::ArrayXXcd cross;         // x sensors: of sensor and boresight, by way of the command
+  Eigen::ArrayXd boresight;       // density of the boresight without the loop, rad^2
+  Eigen::ArrayXd by_command;      // of the boresight, per density of the command
+  Eigen::ArrayXd noise;           // of the sensors
+  double unavoidable_cost = 0.0;  // rad^2, what no command changes
+  Eigen::ArrayXd weights;         // of a sum over the frequencies that is a mean square
+};
+
+/// `frequency`: rad/s, rising, from above 0 to below the Nyquist frequency; the trapezoidal rule
+/// must resolve the loop's resonances. O(states^3) once and O(states^3) a frequency.
+SampledSpectrum sampled_spectrum(const SampledSetting& setting, const Eigen::ArrayXd& frequency);
+
+/// ln of a figure and its gradient: d figure = 2 Re sum(gradient * dK) over all elements, K the
+/// controller's response, frequencies x sensors.
+struct LoopFigure {
+  double logarithm = 0.0;
+  Eigen::ArrayXXcd gradient;
+};
+
+/// Of a loop that is stable, which is not tested here.
+struct LoopFigures {
+  LoopFigure boresight_rms;   // rad of motor
+  LoopFigure control_effort;  // rad/s
+  /// Of |S| at the valve command: ln(sum |S|^p)/p, a smooth upper bound of ln Ms at the
+  /// frequencies.
+  LoopFigure sensitivity_peak;
+};
+
+/// `controller`: SampledSetting::controller_response at the spectrum's frequencies.
+LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
+
+/// Gauss-Newton factors of the boresight's mean square, three rows a frequency: a small change dK
+/// of the controller's response (a column per frequency) adds |factor dK|^2, summed over the
+/// frequencies and relative to the mean square, beyond what the gradient says. The change of S
+/// counts to first order only.
+Eigen::MatrixXcd boresight_curvature(const SampledSpectrum& spectrum,
+                                     const Eigen::ArrayXXcd& controller);
+
+}  // namespace boresight::design

@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include "refused_call.hpp"
+#include <boresight/design/limits/controller_refinement.hpp>
+#include <boresight/design/limits/lqg_search.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/numerics/angles.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TrackingProblem problem_with_torque_noise() {
+  TrackingProblem problem = reference::tracking_problem();
+  problem.noise.torque_rms = 0.5;
+  return problem;
+}
+
+SampledSetting setting_of(const TrackingProblem& problem, const plant::AntennaPlant& plant) {
+  return {"plant",       plant, fit_wind_filter(problem),
+          problem.noise, 0.02,  plant::frequency_grid(problem.plant, 1e-3, 24.9, 100)};
+}
+
+// With one plant, next to no limit on peaks and the order of the LQG, the optimum is known: no
+// linear controller of that effort is better (EffortBound).
+TEST(ControllerRefinement, ComesNearTheBoundWhereItIsAttainable) {
+  const TrackingProblem problem = problem_with_torque_noise();
+  const std::vector<SampledSetting> itself{setting_of(problem, problem.plant)}, none;
+  const SampledLoopGoals goals{20.0, 0.6, 3.0};
+  const RobustConstraints constraints(itself, none, goals, 1);
+  // With half the effort and a limit on its peak.
+  const auto lqg = search_limited_lqg(itself.front(), {2.0, 0.3, 3.0});
+  ASSERT_TRUE(lqg.found);
+  const plant::StateSpace& start = lqg.controller;
+  const double bound =
+      pointing_limit(problem, {}, {}, {}).bound.min_rms(goals.control_effort) * problem.gear_ratio;
+  const double before = itself.front().boresight_rms(start);
+  ASSERT_GT(before, 1.2 * bound);
+  const auto found = refine_controller(start, constraints, {.steps = 60});
+  EXPECT_EQ(found.controller.a.rows(), start.a.rows());
+  EXPECT_DOUBLE_EQ(found.boresight_rms, itself.front().boresight_rms(found.controller));
+  EXPECT_GE(found.boresight_rms, bound * (1.0 - 1e-5));
+  EXPECT_LE(found.boresight_rms, 1.1 * bound);
+  EXPECT_LE(constraints.excess(found.controller), 0.0);
+}
+
+TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
+  const TrackingProblem problem = problem_with_torque_noise();
+  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, held;
+  for (const double factor : {0.96, 1.04}) {
+    plant::AntennaPlant other = problem.plant;
+    for (auto& mode : other.structure.modes) mode.stiffness *= factor * factor;
+    plants.push_back(setting_of(problem, other));
+  }
+  plant::AntennaPlant stuck = problem.plant;
+  stuck.drive.viscous_friction = 300.0;
+  held.push_back(setting_of(problem, stuck));
+  const RobustConstraints constraints(plants, held, {}, 1);
+  const auto lqg = search_robust_lqg(plants.front(), constraints);
+  ASSERT_TRUE(lqg.found);
+  const auto found = refine_controller(lqg.controller, constraints, {.steps = 12});
+  EXPECT_GT(found.steps, 0);
+  EXPECT_LT(found.boresight_rms, 0.97 * lqg.boresight_rms);
+  EXPECT_DOUBLE_EQ(found.boresight_rms, constraints.largest_rms(found.controller));
+  EXPECT_LE(constraints.excess(found.controller), 0.0);
+  EXPECT_EQ(found.controller.a.rows(), lqg.controller.a.rows());
+  EXPECT_LE(held.front().boresight_rms(found.controller),
+            1.16 * held.front().boresight_rms(lqg.controller));
+
+  const RobustConstraints threaded(plants, held, {}, 3);
+  const auto again = refine_controller(lqg.controller, threaded, {.steps = 12});
+  EXPECT_EQ(again.controller.a, found.controller.a);
+  EXPECT_EQ(again.controller.b, found.controller.b);
+  EXPECT_EQ(again.evaluations, found.evaluations);
+
+  EXPECT_THAT([&] { (void)refine_controller(lqg.controller, constraints, {.steps = 0}); },
+              ThrowsMessage<InvalidInput>(HasSubstr("at least 1 step")));
+  const RobustConstraints strict(plants, held, {1.05, 0.6, 3.0}, 1);
+  EXPECT_THAT(
+      [&] { (void)refine_controller(lqg.controller, strict); },
+      ThrowsMessage<InvalidInput>(HasSubstr("expected a start that meets its constraints")));
+}
+
+}  // namespace
+}  // namespace boresight::design

@@ -1,0 +1,92 @@
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include "refused_call.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
+#include <boresight/design/limits/lqg_search.hpp>
+#include <boresight/design/limits/robust_constraints.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::design {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+struct Plants {
+  TrackingProblem problem = [] {
+    TrackingProblem result = reference::tracking_problem();
+    result.noise.torque_rms = 0.5;
+    return result;
+  }();
+  Eigen::ArrayXd frequency = plant::frequency_grid(problem.plant, 1e-3, 24.9, 60);
+
+  SampledSetting with_friction(double friction) const {
+    plant::AntennaPlant plant = problem.plant;
+    plant.drive.viscous_friction = friction;
+    return {"plant", plant, fit_wind_filter(problem), problem.noise, 0.02, frequency};
+  }
+};
+
+TEST(RobustConstraints, ExcessIsTheLargestRatioToAGoal) {
+  const Plants plants;
+  const std::vector<SampledSetting> moving{plants.with_friction(0.9)};
+  const std::vector<SampledSetting> held{plants.with_friction(5.0)};
+  const auto controller =
+      control::sampled_loop(
+          moving.front().problem().plant,
+          {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}, 0.02)
+          .controller;
+  const auto response = SampledSetting::controller_response(controller, plants.frequency);
+  const double peak = moving.front().highest_peak(response).magnitude;
+  const double held_peak = held.front().highest_peak(response).magnitude;
+  const double effort = moving.front().control_effort(controller);
+  ASSERT_LT(held.front().spectral_radius(controller), 1.0);
+  ASSERT_GT(held_peak, 1.31);
+  const auto excess = [&](const SampledLoopGoals& goals) {
+    return RobustConstraints(moving, held, goals, 1).excess(controller);
+  };
+  EXPECT_LE(excess({1.01 * peak, 1.01 * effort, 1.01 * held_peak}), 0.0);
+  EXPECT_NEAR(excess({peak / 1.1, 2.0 * effort, 2.0 * held_peak}), std::log(1.1), 2e-3);
+  EXPECT_NEAR(excess({2.0 * peak, effort / 1.2, 2.0 * held_peak}), std::log(1.2), 2e-3);
+  EXPECT_NEAR(excess({2.0 * peak, 2.0 * effort, held_peak / 1.3}), std::log(1.3), 2e-3);
+  EXPECT_DOUBLE_EQ(RobustConstraints(moving, held, {}, 1).largest_rms(controller),
+                   moving.front().boresight_rms(controller));
+}
+
+TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
+  const Plants plants;
+  const std::vector<SampledSetting> moving{plants.with_friction(0.9)}, none;
+  auto controller = weighted_lqg(moving.front(), {.command_weight = 0.05});
+  controller.c *= -1.0;
+  controller.d *= -1.0;
+  ASSERT_GT(moving.front().spectral_radius(controller), 1.0);
+  EXPECT_EQ(RobustConstraints(moving, none, {1e9, 1e9, 1e9}, 2).excess(controller), 3.0);
+}
+
+TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
+  const Plants plants;
+  const std::vector<SampledSetting> one{plants.with_friction(0.9)}, none;
+  const auto constraints = [](const std::vector<SampledSetting>& moving,
+                              const std::vector<SampledSetting>& held,
+                              const SampledLoopGoals& goals) {
+    return [&moving, &held, goals] { (void)RobustConstraints(moving, held, goals, 1); };
+  };
+  EXPECT_THAT(constraints(none, none, {}),
+              ThrowsMessage<InvalidInput>(HasSubstr("at least one plant")));
+  const std::vector<SampledSetting> other{{"other", plants.problem.plant,
+                                           fit_wind_filter(plants.problem), plants.problem.noise,
+                                           0.02, 0.99 * plants.frequency}};
+  EXPECT_THAT(constraints(one, other, {}),
+              ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
+  EXPECT_THAT(
+      constraints(one, none, {2.0, 0.0, 3.0}),
+      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill "
+                                            "and 0 rad/s")));
+}
+
+}  // namespace
+}  // namespace boresight::design

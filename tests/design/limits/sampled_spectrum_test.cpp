@@ -1,0 +1,92 @@
+#include <cmath>
+#include <complex>
+
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include <boresight/design/limits/lqg_search.hpp>
+#include <boresight/design/limits/sampled_spectrum.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace boresight::design {
+namespace {
+
+struct Loop {
+  Eigen::ArrayXd frequency = [] {
+    const Eigen::ArrayXd grid = plant::frequency_grid(reference::antenna(), 1e-3, 24.9, 200);
+    Eigen::ArrayXd with_slow(grid.size() + 60);
+    with_slow
+        << Eigen::ArrayXd::LinSpaced(60, std::log(1e-3 * grid[0]), std::log(0.95 * grid[0])).exp(),
+        grid;
+    return with_slow;
+  }();
+  SampledSetting setting = [this] {
+    TrackingProblem problem = reference::tracking_problem();
+    problem.noise.torque_rms = 0.5;
+    return SampledSetting("own", problem.plant, fit_wind_filter(problem), problem.noise, 0.02,
+                          frequency);
+  }();
+  plant::StateSpace controller = weighted_lqg(
+      setting, {.command_weight = 0.01, .spring_weight = 1.0, .friction_torque = 20.0});
+  Eigen::ArrayXXcd response = SampledSetting::controller_response(controller, frequency);
+  SampledSpectrum spectrum = sampled_spectrum(setting, frequency);
+};
+
+// By sums over frequencies what Lyapunov equations give.
+TEST(SampledSpectrum, AgreesWithTheCovarianceOfTheLoop) {
+  const Loop loop;
+  const SampledEvaluation expected = loop.setting.evaluate(loop.controller);
+  ASSERT_LT(expected.spectral_radius, 1.0);
+  const LoopFigures found = loop_figures(loop.spectrum, loop.response);
+  EXPECT_NEAR(std::exp(found.boresight_rms.logarithm) / expected.boresight_rms, 1.0, 5e-3);
+  EXPECT_NEAR(std::exp(found.control_effort.logarithm) / expected.control_effort, 1.0, 2e-3);
+  const double peak = loop.setting.highest_peak(loop.response).magnitude;
+  EXPECT_GE(std::exp(found.sensitivity_peak.logarithm), 0.999 * peak);
+  EXPECT_LE(std::exp(found.sensitivity_peak.logarithm), 1.015 * peak);
+}
+
+TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
+  const Loop loop;
+  const LoopFigures found = loop_figures(loop.spectrum, loop.response);
+  // A smooth change of the controller, another in each sensor.
+  Eigen::ArrayXXcd change = loop.response;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const double slow = 0.3 * std::pow(5.0, static_cast<double>(i));
+    for (Eigen::Index k = 0; k < change.rows(); ++k) {
+      change(k, i) *= 1.0 / std::complex<double>(1.0, loop.frequency[k] / slow);
+    }
+  }
+  constexpr double step = 1e-4;
+  const LoopFigures above = loop_figures(loop.spectrum, loop.response + step * change);
+  const LoopFigures below = loop_figures(loop.spectrum, loop.response - step * change);
+  const auto expect_slope = [&](const LoopFigure& at, const LoopFigure& up,
+                                const LoopFigure& down) {
+    const double slope = 2.0 * (at.gradient * change).sum().real();
+    EXPECT_NEAR((up.logarithm - down.logarithm) / (2.0 * step) / slope, 1.0, 1e-3);
+  };
+  expect_slope(found.boresight_rms, above.boresight_rms, below.boresight_rms);
+  expect_slope(found.control_effort, above.control_effort, below.control_effort);
+  expect_slope(found.sensitivity_peak, above.sensitivity_peak, below.sensitivity_peak);
+}
+
+// Without feedback through the plant the mean square is exactly quadratic in the controller.
+TEST(SampledSpectrum, CurvatureIsThatOfTheMeanSquare) {
+  Loop loop;
+  loop.spectrum.response.setZero();
+  const auto mean_square = [&](const Eigen::ArrayXXcd& controller) {
+    return std::exp(2.0 * loop_figures(loop.spectrum, controller).boresight_rms.logarithm);
+  };
+  const double here = mean_square(loop.response);
+  const Eigen::ArrayXXcd change = 0.1 * loop.response;
+  const double second =
+      0.5 * (mean_square(loop.response + change) + mean_square(loop.response - change)) - here;
+  const Eigen::MatrixXcd factors = boresight_curvature(loop.spectrum, loop.response);
+  double expected = 0.0;
+  for (Eigen::Index k = 0; k < change.rows(); ++k) {
+    expected += (factors.middleRows(3 * k, 3) * change.row(k).matrix().transpose()).squaredNorm();
+  }
+  EXPECT_NEAR(second / here / expected, 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace boresight::design

@@ -115,18 +115,18 @@ void describe_pointing(io::Visitor& v, const MonteCarloSection& section) {
       "Of a simulation on the case's own plant: budgets are evaluated by it, of a factor of at "
       "least 1.");
   v.list("budgets", section.budgets, "Pointing budgets.",
-         [&](const MonteCarloSection::BudgetProbability& chance) {
-           v.text("name", chance.budget.name, "Its name.");
-           v.text("band", chance.budget.band, "Frequency band.");
-           v.text("convention", chance.budget.convention, "What the loss is taken of.");
-           v.number("rms", chance.budget.rms, unit::millidegree, "Allowed, one axis.");
-           describe_estimate(v, "probability_met", chance.met, unit::ratio,
+         [&](const MonteCarloSection::BudgetProbability& probability) {
+           v.text("name", probability.budget.name, "Its name.");
+           v.text("band", probability.budget.band, "Frequency band.");
+           v.text("convention", probability.budget.convention, "What the loss is taken of.");
+           v.number("rms", probability.budget.rms, unit::millidegree, "Allowed, one axis.");
+           describe_estimate(v, "probability_met", probability.met, unit::ratio,
                              "In the design wind; no unstable plant meets one.");
          });
   v.list("constraints", section.constraints_violated, "Constraints.",
-         [&](const MonteCarloSection::ConstraintProbability& chance) {
-           v.text("constraint", chance.goal, "Which.");
-           describe_estimate(v, "probability_broken", chance.broken, unit::ratio,
+         [&](const MonteCarloSection::ConstraintProbability& probability) {
+           v.text("constraint", probability.goal, "Which.");
+           describe_estimate(v, "probability_broken", probability.broken, unit::ratio,
                              "By a stable plant, among all plants.");
          });
 }

@@ -76,8 +76,7 @@ constexpr std::array entries = std::to_array<Entry>({
       "design/limits/pointing_limit.hpp"}},
     {"A state-space controller",
      {"robust LQG that is stable while friction holds the motor, reduced in its closed loop, "
-      "refined "
-      "by gradient over the plants",
+      "refined by gradient over the plants",
       "design/limits/controller_refinement.hpp"}},
     {"In the time domain",
      {"nonlinear simulation with synthesised wind; each effect switched off in turn",

@@ -24,15 +24,15 @@
     const part = position - low;
     const value = values[low] + part * (values[high] - values[low]);
     if (part === 0 || low === high) return { value, ends: [[low, 1]] };
-    const share = axis === 3 ? Math.log(value / values[low]) / Math.log(values[high] / values[low]) : part;
-    return { value, ends: [[low, 1 - share], [high, share]] };
+    const fraction = axis === 3 ? Math.log(value / values[low]) / Math.log(values[high] / values[low]) : part;
+    return { value, ends: [[low, 1 - fraction], [high, fraction]] };
   };
 
   const look = (structure, positions) => {
     const axes = positions.map((position, axis) => between(axis, position));
     let corners = [{ at: [], weight: 1 }];
     for (const { ends } of axes) {
-      corners = corners.flatMap(({ at, weight }) => ends.map(([index, share]) => ({ at: [...at, index], weight: weight * share })));
+      corners = corners.flatMap(({ at, weight }) => ends.map(([index, fraction]) => ({ at: [...at, index], weight: weight * fraction })));
     }
     const answer = { values: axes.map(({ value }) => value), state: 2, rms: 0, between: corners.length > 1 };
     for (const { at, weight } of corners) {

@@ -81,6 +81,9 @@ Document document_of(const design::PointingLimit& limit) {
   if (!limit.robustified && !limit.unconstrained.members.empty()) {
     text += wrapped("No LQG of the searched weights meets the constraints on every plant.", "  ");
   }
+  if (limit.robustified && !limit.refined) {
+    text += wrapped("The robust LQG is not refined: its poles are repeated.", "  ");
+  }
   if (limit.controllers.empty()) return text;
   std::vector<Row> ratios{{"rms of controller over", "bound at its effort", "LQG with margins",
                            "robust LQG", "worst: robust LQG", "flexure alone"}};

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -6,6 +7,7 @@
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_state_space.hpp>
 #include <boresight/app/report/time_domain_cells.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
@@ -25,31 +27,32 @@ double compared_rms(const design::SimulatedCandidate& one) {
   return one.effect().rms(one.result.wind.predicted_rms);
 }
 
-bool settles(const design::StateSpaceStudy& study) {
-  const auto& slew = study.simulated.result.slew;
-  return !slew || slew->settling_time;
+std::string_view lead_of(design::StateSpaceVerdict verdict) {
+  switch (verdict) {
+    case design::StateSpaceVerdict::incomplete:
+      return "No verdict: a run did not complete.";
+    case design::StateSpaceVerdict::limit_cycle:
+      return "Not usable, as it limit-cycles beyond the tightest budget: ";
+    case design::StateSpaceVerdict::unsettled:
+      return "Not usable, as it does not settle within the tightest budget after a slew: ";
+    case design::StateSpaceVerdict::better:
+      return "Better: ";
+    case design::StateSpaceVerdict::no_advantage:
+      return "No advantage: ";
+  }
+  throw InvalidInput("state-space verdict: not one of those there are");
 }
 
-bool is_better(const design::StateSpaceStudy& study) {
-  return study.limit_cycle_free && settles(study) && study.change && study.change->upper < 0.0;
-}
-
-std::string verdict(const design::StateSpaceStudy& study, const design::SimulatedCandidate& loops) {
-  if (!study.change) return "No verdict: a run did not complete.";
-  const std::string figures = fmt::format(
-      "with the limit cycle in quadrature it has {:.3f} mdeg rms, {} {:.3f} ({}, 95 % {} to {}).",
-      compared_rms(study.simulated) / millidegree, loops.controller,
-      compared_rms(loops) / millidegree, signed_percent(study.change->value),
-      signed_percent(study.change->lower), signed_percent(study.change->upper));
-  if (is_better(study)) return "Better: " + figures;
-  if (!study.limit_cycle_free) {
-    return "Not usable, as it limit-cycles beyond the tightest budget: " + figures;
-  }
-  if (!settles(study)) {
-    return "No advantage, as it does not settle within the tightest budget after a slew: " +
-           figures;
-  }
-  return "No advantage: " + figures;
+std::string sentence(const design::StateSpaceStudy& study,
+                     const design::SimulatedCandidate& loops) {
+  std::string text(lead_of(verdict(study)));
+  if (!study.change) return text;
+  return text + fmt::format(
+                    "with the limit cycle in quadrature it has {:.3f} mdeg rms, {} {:.3f} ({}, 95 "
+                    "% {} to {}).",
+                    compared_rms(study.simulated) / millidegree, loops.controller,
+                    compared_rms(loops) / millidegree, signed_percent(study.change->value),
+                    signed_percent(study.change->lower), signed_percent(study.change->upper));
 }
 
 }  // namespace
@@ -78,7 +81,7 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
     return settling_cell(one.result.slew, loops.options.settling_watched);
   });
   Document text = heading("A state-space controller instead of loops");
-  text += essential(wrapped(verdict(study, own), "  "));
+  text += essential(wrapped(sentence(study, own), "  "));
   text += wrapped(
       fmt::format("It is the LQG of the table above that is robust over the plants, reduced to the "
                   "lowest order that meets the same constraints and refined by gradient over the "
@@ -98,7 +101,7 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
 
 std::string state_space_advantage(const design::StateSpaceStudy& study,
                                   const TimeDomainSection& loops) {
-  if (!is_better(study)) return "";
+  if (verdict(study) != design::StateSpaceVerdict::better) return "";
   return fmt::format(
       "A state-space controller of the same sensors ({}) would be better, but cannot be "
       "commissioned loop by loop: {:.3f} mdeg rms with the limit cycle in quadrature, {} (95 % {} "

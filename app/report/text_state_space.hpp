@@ -11,8 +11,7 @@ namespace boresight::app {
 /// The verdict, and the state-space controller beside the recommended loops in the same runs.
 Document document_of(const design::StateSpaceStudy& study, const TimeDomainSection& loops);
 
-/// What it reaches, in a sentence for the decision; empty unless it is free of limit cycles within
-/// the tightest budget and, by the interval, better than the loops.
+/// What it reaches, in a sentence for the decision; empty unless its verdict is better.
 std::string state_space_advantage(const design::StateSpaceStudy& study,
                                   const TimeDomainSection& loops);
 

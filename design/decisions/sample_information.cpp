@@ -138,8 +138,7 @@ InputValue value_of(const Eigen::ArrayXd& input, const Eigen::MatrixXd& differen
     }
   }
   result.coefficients = best.rank;
-  // In the mean over the draws the fit promises what it gains, and with less chance in it than the
-  // draws' own losses have.
+  // The fitted losses have the same mean gain as the samples' own losses, and less variance.
   result.fitted.gain = std::max(0.0, -best.fitted.rowwise().minCoeff().mean());
   result.fitted.standard_error = error_of_mean(gains(difference, best.fitted));
 

@@ -14,7 +14,7 @@ namespace boresight::design {
 /// own wind. None for a budget that states no wind_speed. `effect`: applied to the rms of the
 /// linear loops. The supply's torque limit is not included. The result does not depend on the
 /// number of threads.
-/// @throws as judge.
+/// @throws as evaluate.
 std::vector<std::optional<int>> plants_within_budgets(
     const TrackingProblem& problem, const std::vector<EnsembleMember>& members,
     const control::Controller& controller, const Constraints& goals,

@@ -61,7 +61,7 @@ double highest_compared_speed(double mean_speed, const std::vector<double>& spee
 /// the end of the analysis band, 150 points per decade. The rms is by spectrum at 60 speeds up to
 /// `highest_speed`, noise included. Steps have 300 times, until the nominal loop has settled within
 /// 2 % and half as long again. `evaluated`: result of the same controller on the same members
-/// (judge). The result does not depend on the number of threads. O(members (grid + states^3)).
+/// (evaluate). The result does not depend on the number of threads. O(members (grid + states^3)).
 /// @throws InvalidInput where sizes of `members` and `evaluated` differ, for a highest speed that
 /// is not positive, and as control::validate.
 EnsembleCurves ensemble_curves(const TrackingProblem& problem,

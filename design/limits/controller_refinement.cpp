@@ -26,23 +26,21 @@ constexpr double spacing = 1.004;
 constexpr double slow_spacing = 1.3, slow_decades = 3.0;
 // What the constraints keep in hand for peaks between the points, and how far a step may miss that.
 constexpr double first_margin = 4e-3, tolerance = 1e-3;
-constexpr double first_radius = 8e-3, least_radius = 5e-4, most_radius = 0.5;
+constexpr double first_radius = 8e-3, min_radius = 5e-4, max_radius = 0.5;
 // An rms at standstill may be that much of the start's when the largest over the plants is as
 // large.
 constexpr double allowance_at_standstill = 1.15;
 // Cost of missing a constraint by a factor of e: above what it can gain.
-constexpr double slack_cost = 5.0, most_slack = 3.0;
+constexpr double slack_cost = 5.0, max_slack = 3.0;
 constexpr int evaluations_a_step = 10;
 constexpr double worthwhile = 1e-4;
-// From here on every so many lead the steps; whether a step counts all decide.
-constexpr std::size_t most_plants = 40;
 // Of every so many plants the boresight counts for the coordinates; sensitivities do of all, since
 // each plant's resonances lie elsewhere.
 constexpr std::size_t plants_a_curvature = 3;
 // A unit of the coordinates changes figures by about this fraction of themselves, over all plants.
 constexpr double unit_change = 0.4;
 // Of the largest curvature, scaled: directions with less hardly matter and get no more room.
-constexpr double least_curvature = 1e-3;
+constexpr double min_curvature = 1e-3;
 
 Eigen::ArrayXd refinement_frequencies(const Eigen::ArrayXd& grid) {
   std::vector<double> kept;
@@ -88,28 +86,33 @@ class Refinement {
     RefinementResult result{start, constraints_.largest_rms(start), 0, 0};
     double radius = first_radius, best = 0.0;
     MatrixXd directions = own_directions();
-    for (int i = 0; i < steps && radius >= least_radius; ++i) {
-      auto found = step(directions, radius);
+    for (int i = 0; i < steps && radius >= min_radius; ++i) {
+      Step found = step(directions, radius);
       result.evaluations += found.evaluations;
-      const bool lower = found.cost < best - worthwhile;
-      const double excess = lower ? constraints_.excess(found.controller) : 0.0;
-      if (!lower || excess > 0.0) {
+      if (!(found.cost < best - worthwhile)) {
+        radius *= 0.5;
+        continue;
+      }
+      const double excess = constraints_.excess(found.controller);
+      if (excess > 0.0) {
         // A peak between the points: keep more in hand. Else the step was too long.
-        if (excess > 0.0 && excess < 2.0 * margin_) {
+        if (excess < 2.0 * margin_) {
           margin_ += excess;
         } else {
           radius *= 0.5;
         }
         continue;
       }
+      const double rms = constraints_.largest_rms(found.controller);
+      if (!(rms < result.boresight_rms)) break;  // what the grid shows is no more than its error
       best = found.cost;
       centre_ = std::move(found.parameters);
       directions = own_directions();
-      radius = std::min(1.4 * radius, most_radius);
+      radius = std::min(1.4 * radius, max_radius);
       result.controller = std::move(found.controller);
+      result.boresight_rms = rms;
       ++result.steps;
     }
-    result.boresight_rms = constraints_.largest_rms(result.controller);
     return result;
   }
 
@@ -122,10 +125,9 @@ class Refinement {
   };
 
   std::vector<SampledSpectrum> spectra(const std::vector<SampledSetting>& settings) const {
-    const std::size_t stride = 1 + settings.size() / most_plants;
-    std::vector<SampledSpectrum> result((settings.size() + stride - 1) / stride);
-    numerics::for_each_index(result.size(), constraints_.threads(), [&](std::size_t i) {
-      result[i] = sampled_spectrum(settings[stride * i], frequency_);
+    std::vector<SampledSpectrum> result(settings.size());
+    numerics::for_each_index(settings.size(), constraints_.threads(), [&](std::size_t i) {
+      result[i] = sampled_spectrum(settings[i], frequency_);
     });
     return result;
   }
@@ -155,7 +157,7 @@ class Refinement {
     // A parameter of no effect, as of a sensor without noise or response, stays within its box.
     scale = (scale.array() > 0.0).select(scale.cwiseInverse(), 1.0);
     const auto parts_of = numerics::singular_values(scale.asDiagonal() * sum * scale.asDiagonal());
-    const VectorXd size = (parts_of.values.array() + least_curvature).sqrt().inverse();
+    const VectorXd size = (parts_of.values.array() + min_curvature).sqrt().inverse();
     return scale.asDiagonal() * parts_of.u * size.asDiagonal();
   }
 
@@ -163,8 +165,7 @@ class Refinement {
                      const ParallelSections::Response& response, bool with_rms) const {
     const Index count = frequency_.size();
     // Of ln S, weighted where |S| is next to its goal.
-    const Eigen::ArrayXcd sensitivity =
-        (1.0 - (response.value * spectrum.response).rowwise().sum()).inverse();
+    const Eigen::ArrayXcd sensitivity = sensitivity_function(spectrum, response.value);
     const Eigen::ArrayXcd weight = sensitivity * (sensitivity.abs() / goal).min(1.0);
     Eigen::MatrixXcd rows = Eigen::MatrixXcd::Zero(count, centre_.size());
     for (Index i = 0; i < ParallelSections::sensors; ++i) {
@@ -197,7 +198,7 @@ class Refinement {
     problem.upper.assign(size, radius);
     // The last variable: by how much constraints are missed.
     problem.lower.push_back(0.0);
-    problem.upper.push_back(most_slack);
+    problem.upper.push_back(max_slack);
     problem.objectives = plants();
     problem.constraints = plants_.size() + plants() +
                           static_cast<std::size_t>(sections_.stability(centre_).conditions.size());
@@ -221,7 +222,7 @@ class Refinement {
     options.max_restarts = 0;
     FeasibleSearch search(std::move(problem), options);
     std::vector<double> first(size + 1, 0.0);
-    first.back() = std::clamp(search.evaluate(first)->violation(), 0.0, most_slack);
+    first.back() = std::clamp(search.evaluate(first)->violation(), 0.0, max_slack);
     search.search_from(first);
     result.evaluations = search.evaluations();
     result.controller = sections_.state_space(result.parameters);

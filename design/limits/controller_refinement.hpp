@@ -26,8 +26,7 @@ struct RefinementResult {
 /// Rms, effort and peaks and their gradients are those of SampledSpectrum. Each step is a search by
 /// sequential quadratic programming (FeasibleSearch) within a box about the best controller, in
 /// coordinates in which a unit changes the mean square of the boresight or a sensitivity by about
-/// itself; a step counts if RobustConstraints agrees, and widens or narrows the next box. With 40
-/// plants or more every so many lead the steps, and all decide whether one counts. The
+/// itself; a step counts if RobustConstraints agrees, and widens or narrows the next box. The
 /// result is a local optimum or on the way to one, never worse than the start, and no bound. Not
 /// convex: another start may do better.
 /// @throws InvalidInput as ParallelSections, for fewer than 1 step and a start that misses its

@@ -2,6 +2,8 @@
 #include <complex>
 #include <numbers>
 
+#include <Eigen/Cholesky>
+
 #include <boresight/design/limits/sampled_spectrum.hpp>
 #include <boresight/numerics/real_schur.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
@@ -26,7 +28,7 @@ constexpr double sharpness = 400.0;
 MatrixXd leading_factor(const MatrixXd& q, const char* what) {
   MatrixXd factor = numerics::semidefinite_factor(q, what);
   Index kept = factor.cols();
-  const auto share = [&](Index column) {
+  const auto fraction = [&](Index column) {
     double largest = 0.0;
     for (Index row = 0; row < q.rows(); ++row) {
       if (!(q(row, row) > 0.0)) continue;
@@ -34,7 +36,7 @@ MatrixXd leading_factor(const MatrixXd& q, const char* what) {
     }
     return largest;
   };
-  while (kept > 1 && share(kept - 1) < negligible) --kept;
+  while (kept > 1 && fraction(kept - 1) < negligible) --kept;
   return factor.leftCols(kept);
 }
 
@@ -44,7 +46,9 @@ Eigen::ArrayXd trapezoidal_weights(const Eigen::ArrayXd& frequency, double sampl
   const Eigen::ArrayXd half = 0.5 * (frequency.tail(count - 1) - frequency.head(count - 1));
   weights.head(count - 1) += half;
   weights.tail(count - 1) += half;
+  // The ends, down to 0 and up to the Nyquist frequency.
   weights[0] += frequency[0];
+  weights[count - 1] += std::numbers::pi / sample_time - frequency[count - 1];
   return weights * sample_time / std::numbers::pi;
 }
 
@@ -60,8 +64,12 @@ ArrayXXcd sensors_with_command(const SampledSpectrum& spectrum, const ArrayXXcd&
   return result;
 }
 
-ArrayXcd sensitivity_of(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  return (1.0 - (controller * spectrum.response).rowwise().sum()).inverse();
+double boresight_mean_square(const SampledSpectrum& spectrum, const ArrayXXcd& closed,
+                             const ArrayXXcd& seen) {
+  const Eigen::ArrayXd density = spectrum.boresight +
+                                 2.0 * (closed * spectrum.cross).rowwise().sum().real() +
+                                 spectrum.by_command * (closed * seen).rowwise().sum().real();
+  return (spectrum.weights * density).sum() + spectrum.unavoidable_cost;
 }
 
 }  // namespace
@@ -113,18 +121,22 @@ SampledSpectrum sampled_spectrum(const SampledSetting& setting, const Eigen::Arr
   return result;
 }
 
+ArrayXcd sensitivity_function(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
+  return (1.0 - (controller * spectrum.response).rowwise().sum()).inverse();
+}
+
 LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  const ArrayXcd sensitivity = sensitivity_of(spectrum, controller);
+  const ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
   const ArrayXXcd closed = controller.colwise() * sensitivity;
   LoopFigures result;
 
   const Eigen::ArrayXd level = sensitivity.abs().log();
   const double top = level.maxCoeff();
-  const Eigen::ArrayXd share = ((level - top) * sharpness).exp();
-  const double sum = share.sum();
+  const Eigen::ArrayXd powers = ((level - top) * sharpness).exp();
+  const double sum = powers.sum();
   result.sensitivity_peak.logarithm = top + std::log(sum) / sharpness;
   result.sensitivity_peak.gradient =
-      spectrum.response.colwise() * (sensitivity * (0.5 / sum * share));
+      spectrum.response.colwise() * (sensitivity * (0.5 / sum * powers));
 
   // With the command u = S K y, a change dK adds d(S K) = S dK + S^2 (dK P) K to it.
   const auto chained = [&](const ArrayXXcd& of_command, double mean_square) {
@@ -135,10 +147,7 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
     return gradient;
   };
   const ArrayXXcd seen = sensors_with_command(spectrum, closed);
-  const Eigen::ArrayXd boresight = spectrum.boresight +
-                                   2.0 * (closed * spectrum.cross).rowwise().sum().real() +
-                                   spectrum.by_command * (closed * seen).rowwise().sum().real();
-  const double mean_square = (spectrum.weights * boresight).sum() + spectrum.unavoidable_cost;
+  const double mean_square = boresight_mean_square(spectrum, closed, seen);
   result.boresight_rms = {
       0.5 * std::log(mean_square),
       chained(spectrum.cross + seen.colwise() * spectrum.by_command.cast<Complex>(), mean_square)};
@@ -149,30 +158,31 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
 }
 
 MatrixXcd boresight_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  const ArrayXcd sensitivity = sensitivity_of(spectrum, controller);
+  const ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
+  const ArrayXXcd with_command = controller.colwise() * sensitivity;
   const double mean_square =
-      std::exp(2.0 * loop_figures(spectrum, controller).boresight_rms.logarithm);
+      boresight_mean_square(spectrum, with_command, sensors_with_command(spectrum, with_command));
   MatrixXcd result(sensors * controller.rows(), sensors);
   for (Index k = 0; k < controller.rows(); ++k) {
     // Sensors in the closed loop: their density's triangular factor.
     Eigen::Matrix3cd closed = Eigen::Matrix3cd::Identity(), density;
     for (Index i = 0; i < sensors; ++i) {
       for (Index j = 0; j < sensors; ++j) {
-        closed(i, j) += spectrum.response(k, i) * sensitivity[k] * controller(k, j);
+        closed(i, j) += spectrum.response(k, i) * with_command(k, j);
         density(i, j) = spectrum.sensors(k, sensors * i + j);
       }
     }
     density = closed * density * closed.adjoint();
-    Eigen::Matrix3cd factor = Eigen::Matrix3cd::Zero();
-    for (Index j = 0; j < sensors; ++j) {
-      const double pivot = density(j, j).real();
-      if (!(pivot > 0.0)) continue;
-      factor.col(j).tail(sensors - j) = density.col(j).tail(sensors - j) / std::sqrt(pivot);
-      density -= factor.col(j) * factor.col(j).adjoint();
-    }
     const double scale = std::sqrt(spectrum.weights[k] * spectrum.by_command[k] / mean_square) *
                          std::abs(sensitivity[k]);
-    result.middleRows(sensors * k, sensors) = scale * factor.transpose();
+    const Eigen::LLT<Eigen::Matrix3cd> factor(density);
+    // Indefinite by rounding only where slow wind is far above all noise.
+    if (factor.info() != Eigen::Success) {
+      result.middleRows(sensors * k, sensors).setZero();
+      continue;
+    }
+    result.middleRows(sensors * k, sensors) =
+        scale * Eigen::MatrixXcd(factor.matrixL()).transpose();
   }
   return result;
 }

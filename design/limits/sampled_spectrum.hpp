@@ -25,6 +25,11 @@ struct SampledSpectrum {
 /// must resolve the loop's resonances. O(states^3) once and O(states^3) a frequency.
 SampledSpectrum sampled_spectrum(const SampledSetting& setting, const Eigen::ArrayXd& frequency);
 
+/// S = 1/(1 - K P) at the valve command, K the controller's response. Here and below `controller`
+/// is SampledSetting::controller_response at the spectrum's frequencies.
+Eigen::ArrayXcd sensitivity_function(const SampledSpectrum& spectrum,
+                                     const Eigen::ArrayXXcd& controller);
+
 /// ln of a figure and its gradient: d figure = 2 Re sum(gradient * dK) over all elements, K the
 /// controller's response, frequencies x sensors.
 struct LoopFigure {
@@ -41,7 +46,6 @@ struct LoopFigures {
   LoopFigure sensitivity_peak;
 };
 
-/// `controller`: SampledSetting::controller_response at the spectrum's frequencies.
 LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
 
 /// Gauss-Newton factors of the boresight's mean square, three rows a frequency: a small change dK

@@ -4,8 +4,33 @@
 
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
+
+std::string_view to_string(StateSpaceVerdict verdict) {
+  switch (verdict) {
+    case StateSpaceVerdict::incomplete:
+      return "incomplete";
+    case StateSpaceVerdict::limit_cycle:
+      return "limit_cycle";
+    case StateSpaceVerdict::unsettled:
+      return "unsettled";
+    case StateSpaceVerdict::better:
+      return "better";
+    case StateSpaceVerdict::no_advantage:
+      return "no_advantage";
+  }
+  throw InvalidInput("state-space verdict: not one of those there are");
+}
+
+StateSpaceVerdict verdict(const StateSpaceStudy& study) {
+  if (!study.change) return StateSpaceVerdict::incomplete;
+  if (!study.limit_cycle_free) return StateSpaceVerdict::limit_cycle;
+  const auto& slew = study.simulated.result.slew;
+  if (slew && !slew->settling_time) return StateSpaceVerdict::unsettled;
+  return study.change->upper < 0.0 ? StateSpaceVerdict::better : StateSpaceVerdict::no_advantage;
+}
 
 std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
                                                  const TrackingProblem& problem,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
@@ -21,6 +22,17 @@ struct StateSpaceStudy {
   /// figure_change from the loops to this controller.
   std::optional<numerics::Interval> change;
 };
+
+/// The decision between the loops and a state-space controller; the first of these that applies.
+enum class StateSpaceVerdict {
+  incomplete,    // a run did not complete
+  limit_cycle,   // beyond the tightest budget
+  unsettled,     // after a slew, within the tightest budget
+  better,        // by the whole 95 % interval of the change
+  no_advantage,  // none of these
+};
+std::string_view to_string(StateSpaceVerdict verdict);
+StateSpaceVerdict verdict(const StateSpaceStudy& study);
 
 /// Simulates the refined controller of a limit as the recommended loops were simulated: by the same
 /// options and in the same winds, without separate influences. The problem is that of both. None

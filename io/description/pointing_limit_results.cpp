@@ -124,7 +124,7 @@ void describe(Visitor& v, const design::PointingLimit& limit) {
                    "LQG that keeps the goals on every member: a benchmark.", described_lqg);
   v.optional_group(
       "refined", limit.refined,
-      "The robustified one refined by gradient under the same goals, of its order.",
+      "The robustified LQG refined by gradient within the same constraints; null without it.",
       [&](const design::SampledDesign& design) { describe_defined_design(v, design); });
   v.number("full_information_rms", limit.full_information_rms, unit::millidegree,
            "Least of any controller that knows the whole state at each sample, effort free.",

@@ -77,7 +77,7 @@ TEST(TextStateSpace, LeadsWithItsVerdict) {
   auto unsettled = study();
   unsettled.simulated.result.slew.emplace();
   EXPECT_THAT(verdict(unsettled),
-              HasSubstr("No advantage, as it does not settle within the tightest budget after a "
+              HasSubstr("Not usable, as it does not settle within the tightest budget after a "
                         "slew: with the limit cycle"));
   EXPECT_EQ(state_space_advantage(unsettled, loops()), "");
   unsettled.simulated.result.slew->settling_time = 3.0;

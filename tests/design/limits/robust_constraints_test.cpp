@@ -8,6 +8,7 @@
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
 #include <boresight/design/limits/robust_constraints.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -65,6 +66,16 @@ TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
   controller.d *= -1.0;
   ASSERT_GT(moving.front().spectral_radius(controller), 1.0);
   EXPECT_EQ(RobustConstraints(moving, none, {1e9, 1e9, 1e9}, 2).excess(controller), 3.0);
+}
+
+TEST(RobustConstraints, AControllerThatIsUnstableByItselfExceedsThemToo) {
+  const Plants plants;
+  const std::vector<SampledSetting> moving{plants.with_friction(0.9)}, none;
+  const auto controller = weighted_lqg(
+      moving.front(), {.command_weight = 0.05, .input_noise = 1e-3, .friction_torque = 20.0});
+  ASSERT_LT(moving.front().spectral_radius(controller), 1.0);
+  ASSERT_GT(numerics::spectral_radius(controller.a), 1.0);
+  EXPECT_EQ(RobustConstraints(moving, none, {1e9, 1e9, 1e9}, 1).excess(controller), 3.0);
 }
 
 TEST(RobustConstraints, RefuseWhatCannotBeCompared) {

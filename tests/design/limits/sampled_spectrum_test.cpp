@@ -38,8 +38,8 @@ TEST(SampledSpectrum, AgreesWithTheCovarianceOfTheLoop) {
   const SampledEvaluation expected = loop.setting.evaluate(loop.controller);
   ASSERT_LT(expected.spectral_radius, 1.0);
   const LoopFigures found = loop_figures(loop.spectrum, loop.response);
-  EXPECT_NEAR(std::exp(found.boresight_rms.logarithm) / expected.boresight_rms, 1.0, 5e-3);
-  EXPECT_NEAR(std::exp(found.control_effort.logarithm) / expected.control_effort, 1.0, 2e-3);
+  EXPECT_NEAR(std::exp(found.boresight_rms.logarithm) / expected.boresight_rms, 1.0, 1e-5);
+  EXPECT_NEAR(std::exp(found.control_effort.logarithm) / expected.control_effort, 1.0, 1e-5);
   const double peak = loop.setting.highest_peak(loop.response).magnitude;
   EXPECT_GE(std::exp(found.sensitivity_peak.logarithm), 0.999 * peak);
   EXPECT_LE(std::exp(found.sensitivity_peak.logarithm), 1.015 * peak);

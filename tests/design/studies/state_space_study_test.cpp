@@ -44,6 +44,21 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
             is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));
 }
 
+TEST(StateSpaceStudy, VerdictIsTheFirstThatApplies) {
+  StateSpaceStudy study;
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::incomplete);
+  study.change.emplace().upper = -0.01;
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::limit_cycle);
+  study.limit_cycle_free = true;
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::better);
+  study.simulated.result.slew.emplace();
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::unsettled);
+  study.simulated.result.slew->settling_time = 0.0;
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::better);
+  study.change->upper = 0.0;
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::no_advantage);
+}
+
 TEST(StateSpaceStudy, NeedsAControllerAndANonlinearAntenna) {
   Mission mission = reference::demo_mission();
   const TrackingProblem problem = tracking_problem(mission);

@@ -75,8 +75,8 @@ constexpr std::array entries = std::to_array<Entry>({
      {"lower bound over all linear sampled controllers of equal control effort; LQG designs",
       "design/limits/pointing_limit.hpp"}},
     {"A state-space controller",
-     {"robust LQG that is stable while friction holds the motor, reduced in its closed loop, "
-      "refined by gradient over the plants",
+     {"fixed-order synthesis by gradient over the plants, from the recommended loops or the robust "
+      "LQG",
       "design/limits/controller_refinement.hpp"}},
     {"In the time domain",
      {"nonlinear simulation with synthesised wind; each effect switched off in turn",

@@ -82,7 +82,10 @@ Document document_of(const design::PointingLimit& limit) {
     text += wrapped("No LQG of the searched weights meets the constraints on every plant.", "  ");
   }
   if (limit.robustified && !limit.refined) {
-    text += wrapped("The robust LQG is not refined: its poles are repeated.", "  ");
+    text += wrapped(
+        "No state-space controller was refined: poles are repeated, or no step meets every "
+        "constraint.",
+        "  ");
   }
   if (limit.controllers.empty()) return text;
   std::vector<Row> ratios{{"rms of controller over", "bound at its effort", "LQG with margins",

@@ -83,11 +83,11 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   Document text = heading("A state-space controller instead of loops");
   text += essential(wrapped(sentence(study, own), "  "));
   text += wrapped(
-      fmt::format("It is the LQG of the table above that is robust over the plants, reduced to the "
-                  "lowest order that meets the same constraints and refined by gradient over the "
-                  "plants. It ran on the nonlinear antenna as the recommended loops did, in the "
+      fmt::format("All numbers of the controller are searched by gradient for the least rms on the "
+                  "worst plant, within every constraint on each plant. The search starts from: {}. "
+                  "The result ran on the nonlinear antenna as the recommended loops did, in the "
                   "same wind of {:.3g} m/s.",
-                  study.wind_speed),
+                  study.start, study.wind_speed),
       "  ");
   text += essential(table(rows, "l"));
   text += wrapped(

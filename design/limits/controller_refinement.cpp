@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/sampled_spectrum.hpp>
 #include <boresight/design/tuning/feasible_search.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/numerics/singular_values.hpp>
@@ -26,13 +29,19 @@ constexpr double spacing = 1.004;
 constexpr double slow_spacing = 1.3, slow_decades = 3.0;
 // What the constraints keep in hand for peaks between the points, and how far a step may miss that.
 constexpr double first_margin = 4e-3, tolerance = 1e-3;
-constexpr double first_radius = 8e-3, min_radius = 5e-4, max_radius = 0.5;
+// Of the margin: what a missed peak may add, and what a step that counts leaves.
+constexpr double most_margins = 5.0, margin_fall = 0.8;
+constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5;
 // An rms at standstill may be that much of the start's when the largest over the plants is as
 // large.
 constexpr double allowance_at_standstill = 1.15;
 // Cost of missing a constraint by a factor of e: above what it can gain.
 constexpr double slack_cost = 5.0, max_slack = 3.0;
 constexpr int evaluations_a_step = 10;
+// Steps in a row that RefinementOptions::accepts may refuse.
+constexpr int most_refused = 3;
+constexpr std::size_t plants_a_block = 6;
+constexpr Index figures_a_plant = 3;
 constexpr double worthwhile = 1e-4;
 // Of every so many plants the boresight counts for the coordinates; sensitivities do of all, since
 // each plant's resonances lie elsewhere.
@@ -61,32 +70,45 @@ MatrixXd stacked(const Eigen::MatrixXcd& matrix) {
   return result;
 }
 
+double slowest_pole(const plant::StateSpace& controller) {
+  const Eigen::VectorXcd poles = numerics::eigen_decomposition(controller.a).values;
+  return poles.size() == 0 ? HUGE_VAL
+                           : ((1.0 - poles.real().array()) / controller.sample_time).minCoeff();
+}
+
 class Refinement {
  public:
-  Refinement(const plant::StateSpace& start, const RobustConstraints& constraints)
+  Refinement(const plant::StateSpace& start, const RobustConstraints& constraints,
+             const RefinementOptions& options)
       : constraints_(constraints),
-        sections_(start),
+        options_(options),
+        sections_(start, std::min(options.slowest_pole, slowest_pole(start))),
         frequency_(refinement_frequencies(constraints.plants().front().frequency())),
         centre_(sections_.parameters()),
         plants_(spectra(constraints.plants())),
-        at_standstill_(spectra(constraints.at_standstill())) {
+        held_(spectra(constraints.at_standstill())),
+        rated_(plants_.size() + held_.size()) {
+    std::ranges::move(spectra(constraints.at_edges()), std::back_inserter(held_));
     const auto response = sections_.response(centre_, frequency_);
     double worst = -HUGE_VAL;
     for (const auto& one : plants_) {
       worst = std::max(worst, loop_figures(one, response.value).boresight_rms.logarithm);
     }
     references_.assign(plants_.size(), worst);
-    for (const auto& one : at_standstill_) {
-      references_.push_back(loop_figures(one, response.value).boresight_rms.logarithm +
+    for (std::size_t i = plants_.size(); i < rated_; ++i) {
+      references_.push_back(loop_figures(plant(i), response.value).boresight_rms.logarithm +
                             std::log(allowance_at_standstill));
     }
   }
 
-  RefinementResult run(const plant::StateSpace& start, int steps) {
-    RefinementResult result{start, constraints_.largest_rms(start), 0, 0};
-    double radius = first_radius, best = 0.0;
+  RefinementResult run(const plant::StateSpace& start) {
+    RefinementResult result{start, constraints_.largest_rms(start),
+                            !(constraints_.excess(start) > 0.0), 0, 0};
+    double radius = first_radius;
+    double best = result.feasible ? 0.0 : HUGE_VAL;
+    int refused = 0;
     MatrixXd directions = own_directions();
-    for (int i = 0; i < steps && radius >= min_radius; ++i) {
+    for (int i = 0; i < options_.steps && radius >= min_radius; ++i) {
       Step found = step(directions, radius);
       result.evaluations += found.evaluations;
       if (!(found.cost < best - worthwhile)) {
@@ -94,23 +116,44 @@ class Refinement {
         continue;
       }
       const double excess = constraints_.excess(found.controller);
-      if (excess > 0.0) {
+      if (excess > found.missed) {
         // A peak between the points: keep more in hand. Else the step was too long.
-        if (excess < 2.0 * margin_) {
-          margin_ += excess;
+        const double beyond = excess - found.missed;
+        if (beyond < most_margins * margin_) {
+          margin_ += beyond;
+          best += slack_cost * beyond;  // what the last step costs with that, at most
         } else {
           radius *= 0.5;
         }
         continue;
       }
+      // Where a peak exceeds its goal, excess() does not ask for stability.
+      if (excess > 0.0 && !constraints_.stable(found.controller)) {
+        radius *= 0.5;
+        continue;
+      }
       const double rms = constraints_.largest_rms(found.controller);
-      if (!(rms < result.boresight_rms)) break;  // what the grid shows is no more than its error
+      const bool feasible = !(excess > 0.0);
+      // What the grid shows may be no more than its error.
+      const bool better = !result.feasible || rms < result.boresight_rms;
+      if (better && feasible && options_.accepts && !options_.accepts(found.controller)) {
+        if (++refused == most_refused) break;
+        radius *= 0.5;
+        continue;
+      }
+      if (!better) {
+        radius *= 0.5;
+        continue;
+      }
+      refused = 0;
       best = found.cost;
+      margin_ = std::max(first_margin, margin_fall * margin_);
       centre_ = std::move(found.parameters);
       directions = own_directions();
       radius = std::min(1.4 * radius, max_radius);
       result.controller = std::move(found.controller);
       result.boresight_rms = rms;
+      result.feasible = feasible;
       ++result.steps;
     }
     return result;
@@ -120,7 +163,8 @@ class Refinement {
   struct Step {
     VectorXd parameters;
     plant::StateSpace controller;
-    double cost = 0.0;
+    double cost = 0.0;    // with that of what is missed
+    double missed = 0.0;  // ln, of the constraints
     long evaluations = 0;
   };
 
@@ -132,13 +176,14 @@ class Refinement {
     return result;
   }
 
-  std::size_t plants() const { return plants_.size() + at_standstill_.size(); }
+  std::size_t plants() const { return plants_.size() + held_.size(); }
   const SampledSpectrum& plant(std::size_t i) const {
-    return i < plants_.size() ? plants_[i] : at_standstill_[i - plants_.size()];
+    return i < plants_.size() ? plants_[i] : held_[i - plants_.size()];
   }
   double peak_goal(std::size_t i) const {
     const SampledLoopGoals& goals = constraints_.goals();
-    return i < plants_.size() ? goals.sensitivity_peak : goals.standstill_peak;
+    if (i < plants_.size()) return goals.sensitivity_peak;
+    return i < rated_ ? goals.standstill_peak : goals.edge_peak;
   }
 
   // Columns: steps of the parameters of unit effect on mean square and sensitivities.
@@ -153,6 +198,8 @@ class Refinement {
     for (const MatrixXd& part : parts) sum += part;
     sum = sum.selfadjointView<Eigen::Lower>();
     sum /= unit_change * unit_change * static_cast<double>(plants());
+    // A pole that hardly matters must not leave all bounds either.
+    for (const Index k : sections_.logarithms()) sum(k, k) += 1.0;
     VectorXd scale = sum.diagonal().cwiseSqrt();
     // A parameter of no effect, as of a sensor without noise or response, stays within its box.
     scale = (scale.array() > 0.0).select(scale.cwiseInverse(), 1.0);
@@ -175,6 +222,13 @@ class Refinement {
     MatrixXd result = MatrixXd::Zero(centre_.size(), centre_.size());
     result.selfadjointView<Eigen::Lower>().rankUpdate(stacked(rows).transpose());
     if (!with_rms) return result;
+    const Eigen::ArrayXXd of_effort = effort_curvature(spectrum, response.value);
+    for (Index i = 0; i < ParallelSections::sensors; ++i) {
+      rows = of_effort.col(i).matrix().asDiagonal() *
+             response.by_parameters.at(static_cast<std::size_t>(i));
+      result.selfadjointView<Eigen::Lower>().rankUpdate(stacked(rows).transpose(),
+                                                        static_cast<double>(plants_a_curvature));
+    }
     const Eigen::MatrixXcd factors = boresight_curvature(spectrum, response.value);
     for (Index row = 0; row < ParallelSections::sensors; ++row) {
       rows.setZero();
@@ -199,7 +253,7 @@ class Refinement {
     // The last variable: by how much constraints are missed.
     problem.lower.push_back(0.0);
     problem.upper.push_back(max_slack);
-    problem.objectives = plants();
+    problem.objectives = rated_;
     problem.constraints = plants_.size() + plants() +
                           static_cast<std::size_t>(sections_.stability(centre_).conditions.size());
     // The search's own record has only points that miss no constraint at all, and curved ones are
@@ -212,7 +266,8 @@ class Refinement {
       const double missed = std::max(0.0, values.violation() + point.back() - tolerance);
       if (cost + slack_cost * missed < least) {
         least = cost + slack_cost * missed;
-        result.cost = cost;
+        result.cost = least;
+        result.missed = missed;
         result.parameters = moved(directions, point);
       }
       return true;
@@ -233,6 +288,27 @@ class Refinement {
     return centre_ + directions * Eigen::Map<const VectorXd>(point.data(), directions.cols());
   }
 
+  // 2 Re sum(gradient * dK) per parameter: three columns a plant.
+  static MatrixXd by_parameters(const std::array<MatrixXd, ParallelSections::sensors>& derivatives,
+                                std::span<const LoopFigures> figures) {
+    const Index count = figures.front().boresight_rms.gradient.rows();
+    MatrixXd weights(2 * count, figures_a_plant * static_cast<Index>(figures.size()));
+    MatrixXd result = MatrixXd::Zero(derivatives.front().cols(), weights.cols());
+    for (Index sensor = 0; sensor < ParallelSections::sensors; ++sensor) {
+      Index column = 0;
+      for (const LoopFigures& one : figures) {
+        for (const LoopFigure* figure :
+             {&one.boresight_rms, &one.control_effort, &one.sensitivity_peak}) {
+          const auto gradient = figure->gradient.col(sensor);
+          weights.col(column++) << gradient.real(), -gradient.imag();
+        }
+      }
+      result.noalias() +=
+          2.0 * derivatives.at(static_cast<std::size_t>(sensor)).transpose() * weights;
+    }
+    return result;
+  }
+
   void evaluate(const MatrixXd& directions, const std::vector<double>& point,
                 ConstrainedValues& values) const {
     const VectorXd parameters = moved(directions, point);
@@ -241,7 +317,7 @@ class Refinement {
     for (std::size_t i = 0; i < derivatives.size(); ++i) {
       derivatives.at(i) = stacked(response.by_parameters.at(i));
     }
-    const Index count = frequency_.size(), size = centre_.size();
+    const Index size = centre_.size();
     const double slack = point.back();
     const auto store = [&](std::vector<double>& rows, std::size_t row, const auto& gradient,
                            double by_slack) {
@@ -254,30 +330,33 @@ class Refinement {
       store(values.constraint_gradients, row, gradient, -1.0);
     };
     const SampledLoopGoals& goals = constraints_.goals();
+    std::vector<LoopFigures> figures(plants());
     numerics::for_each_index(plants(), constraints_.threads(), [&](std::size_t i) {
-      const LoopFigures figures = loop_figures(plant(i), response.value);
-      // 2 Re sum(gradient * dK): of the three figures at once.
-      MatrixXd gradients = MatrixXd::Zero(size, 3);
-      for (Index sensor = 0; sensor < ParallelSections::sensors; ++sensor) {
-        MatrixXd weights(2 * count, 3);
-        const std::array<const LoopFigure*, 3> each{&figures.boresight_rms, &figures.control_effort,
-                                                    &figures.sensitivity_peak};
-        for (Index k = 0; k < 3; ++k) {
-          const auto column = each.at(static_cast<std::size_t>(k))->gradient.col(sensor);
-          weights.col(k) << column.real(), -column.imag();
+      figures[i] = loop_figures(plant(i), response.value);
+    });
+    // Products of some plants at a time: more would not stay in the processor's cache.
+    const std::size_t blocks = (plants() + plants_a_block - 1) / plants_a_block;
+    numerics::for_each_index(blocks, constraints_.threads(), [&](std::size_t block) {
+      const std::size_t first = block * plants_a_block;
+      const std::size_t last = std::min(first + plants_a_block, plants());
+      const MatrixXd gradients =
+          directions.transpose() * by_parameters(derivatives, {&figures[first], last - first});
+      for (std::size_t i = first; i < last; ++i) {
+        const auto gradient = [&](Index figure) {
+          return gradients.col(figures_a_plant * static_cast<Index>(i - first) + figure);
+        };
+        if (i < rated_) {
+          values.objectives[i] =
+              figures[i].boresight_rms.logarithm - references_[i] + slack_cost * slack;
+          store(values.objective_gradients, i, gradient(0), slack_cost);
         }
-        gradients.noalias() +=
-            2.0 * derivatives.at(static_cast<std::size_t>(sensor)).transpose() * weights;
+        constrain(i, figures[i].sensitivity_peak.logarithm - std::log(peak_goal(i)) + margin_,
+                  gradient(2));
+        if (i >= plants_.size()) continue;
+        constrain(plants() + i,
+                  figures[i].control_effort.logarithm - std::log(goals.control_effort) + margin_,
+                  gradient(1));
       }
-      gradients = (directions.transpose() * gradients).eval();
-      values.objectives[i] = figures.boresight_rms.logarithm - references_[i] + slack_cost * slack;
-      store(values.objective_gradients, i, gradients.col(0), slack_cost);
-      constrain(i, figures.sensitivity_peak.logarithm - std::log(peak_goal(i)) + margin_,
-                gradients.col(2));
-      if (i >= plants_.size()) return;
-      constrain(plants() + i,
-                figures.control_effort.logarithm - std::log(goals.control_effort) + margin_,
-                gradients.col(1));
     });
     const auto stability = sections_.stability(parameters);
     for (Index k = 0; k < stability.conditions.size(); ++k) {
@@ -287,11 +366,13 @@ class Refinement {
   }
 
   const RobustConstraints& constraints_;
+  const RefinementOptions& options_;
   ParallelSections sections_;
   Eigen::ArrayXd frequency_;
   VectorXd centre_;
-  std::vector<SampledSpectrum> plants_, at_standstill_;
-  std::vector<double> references_;  // ln of the rms of the start
+  std::vector<SampledSpectrum> plants_, held_;  // at standstill, then at edges
+  std::size_t rated_;                           // of both, those whose rms is minimised
+  std::vector<double> references_;              // of these: ln of the rms of the start
   double margin_ = first_margin;
 };
 
@@ -304,14 +385,12 @@ RefinementResult refine_controller(const plant::StateSpace& start,
     throw InvalidInput(
         fmt::format("refine_controller: expected at least 1 step, found {}", options.steps));
   }
-  const double excess = constraints.excess(start);
-  if (excess > 0.0) {
+  if (!constraints.stable(start)) {
     throw InvalidInput(
-        fmt::format("refine_controller: expected a start that meets its constraints, found one "
-                    "that exceeds one by a factor of {:.4g} or is unstable",
-                    std::exp(excess)));
+        "refine_controller: expected a start that is stable by itself and on every plant, found "
+        "one that is not");
   }
-  return Refinement(start, constraints).run(start, options.steps);
+  return Refinement(start, constraints, options).run(start);
 }
 
 }  // namespace boresight::design

@@ -22,6 +22,8 @@ constexpr Index sensors = ParallelSections::sensors;
 constexpr Index of_pair = 2 + 2 * sensors, of_single = 1 + sensors;
 // How far within stability the conditions keep the poles.
 constexpr double reserve = 2e-3;
+// A pole with no more imaginary part than that, relative to it, is real.
+constexpr double real_within = 1e-12;
 
 const std::vector<std::string>& sensor_names() {
   static const std::vector<std::string> names{"tachometer", "encoder", "motor_torque"};
@@ -36,8 +38,8 @@ struct Pole {
 
 }  // namespace
 
-ParallelSections::ParallelSections(const plant::StateSpace& controller)
-    : sample_time_(controller.sample_time) {
+ParallelSections::ParallelSections(const plant::StateSpace& controller, double slowest_pole)
+    : sample_time_(controller.sample_time), slowest_pole_(slowest_pole) {
   if (!(sample_time_ > 0.0)) {
     throw InvalidInput("parallel sections: expected a sampled controller, found a continuous one");
   }
@@ -63,7 +65,7 @@ ParallelSections::ParallelSections(const plant::StateSpace& controller)
   for (Index i = 0; i < modes.values.size(); ++i) {
     const Complex place = (modes.values[i] - 1.0) / sample_time_;
     const Eigen::Vector3cd residue = out[i] * into.row(i).transpose() / sample_time_;
-    if (std::abs(place.imag()) <= 1e-12 * std::abs(place)) {
+    if (std::abs(place.imag()) <= real_within * std::abs(place)) {
       real.push_back({place.real(), residue});
     } else if (place.imag() > 0.0) {
       upper.push_back({place, residue});
@@ -90,6 +92,16 @@ ParallelSections::ParallelSections(const plant::StateSpace& controller)
     for (Index i = 0; i < sensors; ++i) parameters_[next++] = real.front().residue[i].real();
   }
   parameters_.tail(sensors) = direct;
+}
+
+std::vector<Index> ParallelSections::logarithms() const {
+  std::vector<Index> result;
+  for (Index j = 0; j < pairs_; ++j) {
+    result.push_back(of_pair * j);
+    result.push_back(of_pair * j + 1);
+  }
+  if (singles_ == 1) result.push_back(of_pair * pairs_);
+  return result;
 }
 
 plant::StateSpace ParallelSections::state_space(const Eigen::VectorXd& parameters) const {
@@ -174,10 +186,11 @@ ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& par
 
 // z = 1 + T delta within the unit circle (Jury): b1 > T b0 and 4 > 2 T b1 - T^2 b0.
 ParallelSections::Stability ParallelSections::stability(const Eigen::VectorXd& parameters) const {
-  Stability result{Eigen::VectorXd(2 * pairs_ + singles_),
-                   Eigen::MatrixXd::Zero(2 * pairs_ + singles_, parameters.size())};
+  const Index each = slowest_pole_ > 0.0 ? 2 : 1;
+  const Index count = each * order();
+  Stability result{Eigen::VectorXd(count), Eigen::MatrixXd::Zero(count, parameters.size())};
   Index next = 0, row = 0;
-  for (Index j = 0; j < pairs_; ++j, next += of_pair, row += 2) {
+  for (Index j = 0; j < pairs_; ++j, next += of_pair, row += 2 * each) {
     result.conditions[row] =
         parameters[next + 1] + std::log(sample_time_) - parameters[next] + reserve;
     result.gradients(row, next) = -1.0;
@@ -187,11 +200,74 @@ ParallelSections::Stability ParallelSections::stability(const Eigen::VectorXd& p
     result.conditions[row + 1] = first - second - 4.0 + reserve;
     result.gradients(row + 1, next) = first;
     result.gradients(row + 1, next + 1) = -second;
+    if (each == 1) continue;
+    // Real parts beyond s: b1 > 2 s, and for real poles b0 + s^2 > s b1.
+    const double b0 = std::exp(parameters[next + 1]), square = slowest_pole_ * slowest_pole_;
+    result.conditions[row + 2] = std::log(2.0 * slowest_pole_) - parameters[next];
+    result.gradients(row + 2, next) = -1.0;
+    result.conditions[row + 3] = std::log(slowest_pole_) + parameters[next] - std::log(b0 + square);
+    result.gradients(row + 3, next) = 1.0;
+    result.gradients(row + 3, next + 1) = -b0 / (b0 + square);
   }
   if (singles_ == 1) {
     result.conditions[row] = parameters[next] + std::log(0.5 * sample_time_) + reserve;
     result.gradients(row, next) = 1.0;
+    if (each == 2) {
+      result.conditions[row + 1] = std::log(slowest_pole_) - parameters[next];
+      result.gradients(row + 1, next) = -1.0;
+    }
   }
+  return result;
+}
+
+plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
+                                  const plant::StateSpace& other, double slowest_pole) {
+  const double time = controller.sample_time;
+  const Eigen::VectorXcd poles = numerics::eigen_decomposition(other.a).values;
+  std::vector<Complex> added;
+  double room = 1.1;  // of the next pole that is too slow
+  for (const Complex& pole : poles) {
+    if (pole.imag() < 0.0) continue;
+    Complex place = (pole - 1.0) / time;
+    if (std::abs(place.imag()) <= real_within * std::abs(place)) place.imag(0.0);
+    if (place.real() > -slowest_pole) {
+      place.real(-room * slowest_pole);
+      room += 0.1;
+    }
+    added.push_back(place);
+  }
+  const auto states = [](const Complex& place) -> Index { return place.imag() > 0.0 ? 2 : 1; };
+  Index count = controller.a.rows(), row = count;
+  for (const Complex& place : added) count += states(place);
+  const Index output = plant::output_index(controller, "valve_command");
+  plant::StateSpace result{Eigen::MatrixXd::Identity(count, count),
+                           Eigen::MatrixXd::Zero(count, sensors),
+                           Eigen::MatrixXd::Zero(1, count),
+                           Eigen::MatrixXd::Zero(1, sensors),
+                           sensor_names(),
+                           {"valve_command"},
+                           {},
+                           time};
+  result.a.topLeftCorner(row, row) = controller.a;
+  for (Index i = 0; i < sensors; ++i) {
+    const auto found = std::ranges::find(controller.inputs, sensor_names()[std::size_t(i)]);
+    if (found == controller.inputs.end()) continue;
+    const Index column = found - controller.inputs.begin();
+    result.b.col(i).head(row) = controller.b.col(column);
+    result.d(0, i) = controller.d(output, column);
+  }
+  result.c.leftCols(row) = controller.c.row(output);
+  for (const Complex& place : added) {
+    result.a(row, row) += time * place.real();
+    result.c(0, row) = 1.0;
+    if (states(place) == 2) {
+      result.a(row + 1, row + 1) += time * place.real();
+      result.a(row, row + 1) = time * place.imag();
+      result.a(row + 1, row) = -time * place.imag();
+    }
+    row += states(place);
+  }
+  for (Index i = 1; i <= count; ++i) result.states.push_back(fmt::format("state_{}", i));
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -23,10 +24,14 @@ class ParallelSections {
   /// has zeros.
   /// @throws InvalidInput without the output or for a controller that is not sampled or not stable;
   /// NumericalFailure as numerics::eigen_decomposition (repeated poles).
-  explicit ParallelSections(const plant::StateSpace& controller);
+  /// `slowest_pole`: rad/s, what stability() keeps the real parts of all poles in delta beyond.
+  explicit ParallelSections(const plant::StateSpace& controller, double slowest_pole = 0.0);
 
   const Eigen::VectorXd& parameters() const { return parameters_; }
   Eigen::Index order() const { return 2 * pairs_ + singles_; }
+
+  /// Places of the parameters that are logarithms of denominators.
+  std::vector<Eigen::Index> logarithms() const;
 
   /// The controller of other parameters, with all three sensors as inputs. States: of each section
   /// the output and another one of the same size.
@@ -38,8 +43,8 @@ class ParallelSections {
   };
   Response response(const Eigen::VectorXd& parameters, const Eigen::ArrayXd& frequency) const;
 
-  /// Stable where all are negative: conditions on the sections and their gradients, conditions x
-  /// parameters.
+  /// Stable, and with no pole slower than allowed, where all are negative: conditions on the
+  /// sections and their gradients, conditions x parameters.
   struct Stability {
     Eigen::VectorXd conditions;
     Eigen::MatrixXd gradients;
@@ -47,9 +52,16 @@ class ParallelSections {
   Stability stability(const Eigen::VectorXd& parameters) const;
 
  private:
-  double sample_time_ = 0.0;
+  double sample_time_ = 0.0, slowest_pole_ = 0.0;
   Eigen::Index pairs_ = 0, singles_ = 0;  // sections of second and of first order
   Eigen::VectorXd parameters_;
 };
+
+/// A sampled controller, as a function of the three sensors alone, with poles of another one added
+/// that do nothing yet, for a refinement to use: with zero numerators. Poles slower than
+/// `slowest_pole` (rad/s) become as fast, each a little faster than the last, so that none are
+/// repeated. @throws InvalidInput without the output valve_command.
+plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
+                                  const plant::StateSpace& other, double slowest_pole);
 
 }  // namespace boresight::design

@@ -1,12 +1,15 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/lqg/noise_effort_lqg.hpp>
 #include <boresight/design/limits/controller_refinement.hpp>
+#include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -47,11 +50,23 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
   return slopes;
 }
 
+// Small motion of amplitude A across an edge between two codes of the encoder is seen as a square
+// wave, by the describing function as A times 2 q/(pi A), q its step (Gelb and Vander Velde, 1968);
+// dry friction then acts as a slope that is inverse to A. The constraint's largest slope is that of
+// A = q/2. These factors of it, with the gain of each, lead to where friction holds the motor.
+constexpr std::array<double, 4> slopes_at_edges{3.0, 10.0, 30.0, 100.0};
+constexpr double gain_at_half_a_step = 4.0 / std::numbers::pi;
+// No pole of a refined controller is slower: a slew would leave an error for minutes.
+constexpr double slowest_pole = 0.15;
+constexpr int steps_from_loops = 40;
+
 class Study {
  public:
   Study(const TrackingProblem& problem, const Constraints& goals,
         const std::vector<EnsembleMember>& members, const PointingLimitOptions& options)
       : threads_(options.threads),
+        start_(options.start),
+        accepts_(options.accepts),
         ratio_(problem.gear_ratio),
         goals_{goals.sensitivity_peak[1], goals.control_effort},
         filter_(fit_wind_filter(problem)) {
@@ -73,6 +88,17 @@ class Study {
     add(settings_, "nominal", problem.plant);
     for (const EnsembleMember& member : members) add(settings_, member.name, member.plant);
     for (const EnsembleMember& member : held) add(at_standstill_, member.name, member.plant);
+    if (!goals.standstill || goals.standstill->friction.empty()) return;
+    const std::vector<double>& slopes = goals.standstill->friction;
+    as_constrained_.assign(at_standstill_.begin(),
+                           at_standstill_.begin() + static_cast<std::ptrdiff_t>(slopes.size()));
+    for (const double factor : slopes_at_edges) {
+      plant::AntennaPlant plant = problem.plant;
+      plant.drive.viscous_friction = factor * *std::ranges::max_element(slopes);
+      at_edges_.emplace_back(fmt::format("edge, friction x {:.3g}", factor), plant, filter_,
+                             problem.noise, options.sample_time, frequency,
+                             factor * gain_at_half_a_step);
+    }
   }
 
   const SampledSetting& nominal() const { return settings_.front(); }
@@ -118,12 +144,38 @@ class Study {
     if (settings_.size() == 1) return std::nullopt;
     return limited(search_robust_lqg(nominal(), constraints()));
   }
-  std::optional<SampledDesign> refined(const LimitedLqg& robust) const {
+  void refine(const LimitedLqg& robust, PointingLimit& limit) const {
     try {
-      return evaluate(refine_controller(robust.design.controller, constraints()).controller);
+      const plant::StateSpace& lqg = robust.design.controller;
+      std::optional<RefinementResult> found;
+      if (start_) {
+        const auto start = with_idle_poles(sampled(start_->controller), lqg, slowest_pole);
+        RefinementOptions options;
+        options.steps = steps_from_loops;
+        options.slowest_pole = slowest_pole;
+        for (const auto* edges : {&at_edges_, &none_}) {
+          const RobustConstraints constraints(settings_, as_constrained_, *edges, goals_, threads_);
+          if (!constraints.stable(start)) continue;
+          if (accepts_ && accepts_(start)) options.accepts = accepts_;
+          found = refine_controller(start, constraints, options);
+          limit.refined_from = start_->name;
+          break;
+        }
+      }
+      if (!found) {
+        found = refine_controller(lqg, constraints());
+        limit.refined_from = "robust LQG";
+      }
+      if (found->feasible) limit.refined = evaluate(std::move(found->controller));
     } catch (const NumericalFailure&) {
-      return std::nullopt;  // of poles that do not part
+      limit.refined.reset();  // of poles that do not part
     }
+    if (!limit.refined) limit.refined_from.clear();
+  }
+  plant::StateSpace sampled(const control::Controller& controller) const {
+    return control::sampled_loop(nominal().problem().plant, controller,
+                                 nominal().problem().sample_time)
+        .controller;
   }
 
   // The command weight at which the LQG that charges all of the command has the effort allowed:
@@ -216,23 +268,27 @@ class Study {
   }
 
  private:
-  RobustConstraints constraints() const { return {settings_, at_standstill_, goals_, threads_}; }
+  RobustConstraints constraints() const {
+    return {settings_, at_standstill_, none_, goals_, threads_};
+  }
 
   unsigned threads_;
+  std::optional<DescribedController> start_;
+  std::function<bool(const plant::StateSpace&)> accepts_;
   double ratio_;
   SampledLoopGoals goals_;
   plant::ShapingFilter filter_;
   std::vector<SampledSetting> settings_;  // nominal, then the members
   std::vector<SampledSetting> at_standstill_;
+  std::vector<SampledSetting> as_constrained_;  // of these, the constraint's own slopes
+  std::vector<SampledSetting> at_edges_, none_;
 };
 
 ControllerAgainstLimit against(const DescribedController& named, const Study& study,
                                const PointingLimit& limit) {
-  const plant::StateSpace& plant = study.nominal().problem().plant;
   ControllerAgainstLimit result;
   result.name = named.name;
-  result.design =
-      study.evaluate(control::sampled_loop(plant, named.controller, limit.sample_time).controller);
+  result.design = study.evaluate(study.sampled(named.controller));
   const SampledResult& nominal = result.design.nominal;
   if (!nominal.stable()) return result;
   result.min_rms = limit.bound.min_rms(nominal.control_effort);
@@ -292,7 +348,7 @@ PointingLimit pointing_limit(const TrackingProblem& problem, const Constraints& 
   study.bound(limit);
   limit.margin_limited = study.margin_limited();
   limit.robustified = study.robustified();
-  if (limit.robustified) limit.refined = study.refined(*limit.robustified);
+  if (limit.robustified) study.refine(*limit.robustified, limit);
   limit.full_information_rms = study.full_information_rms();
   limit.flexure_rms = flexure_rms(problem);
   for (const DescribedController& named : controllers)

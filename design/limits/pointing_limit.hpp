@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -84,9 +85,15 @@ struct PointingLimit {
   /// holds the motor (search_robust_lqg; the constraint's friction slopes, and 3 and 10 times the
   /// largest), of reduced order. None without members.
   std::optional<LimitedLqg> robustified;
-  /// That controller refined by gradient under the same constraints (refine_controller), of the
-  /// same order. None without it, and where its poles are repeated.
+  /// A controller refined by gradient (refine_controller) under the same constraints, but for what
+  /// follows. It starts from PointingLimitOptions::start with the poles of the robustified LQG
+  /// added, and is constrained at the constraint's friction slopes and, if it is stable there, at
+  /// edges of the encoder. If no start is given, or it has integrals or is unstable somewhere, it
+  /// starts from the robustified LQG, under that one's constraints. None without that LQG, where
+  /// poles are repeated, and where no step meets every constraint.
   std::optional<SampledDesign> refined;
+  /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
+  std::string refined_from;
   /// The least rms of any controller that measures the whole state, wind included, without error at
   /// each sample, whatever its effort. It is the effect of the wind before the second-next command
   /// acts (to 1 %, from above).
@@ -107,6 +114,10 @@ struct DescribedController {
 struct PointingLimitOptions {
   double sample_time = 0.02;  // s
   unsigned threads = 1;
+  /// Where the refinement starts.
+  std::optional<DescribedController> start = std::nullopt;
+  /// RefinementOptions::accepts, of a refinement from there.
+  std::function<bool(const plant::StateSpace&)> accepts = {};
 };
 
 /// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and

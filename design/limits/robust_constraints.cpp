@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -27,23 +26,29 @@ double highest_peak(const std::vector<SampledSetting>& settings, const Eigen::Ar
 }  // namespace
 
 void validate(const SampledLoopGoals& goals) {
-  if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.control_effort > 0.0) {
+  if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.edge_peak > 1.0 &&
+      goals.control_effort > 0.0) {
     return;
   }
-  throw InvalidInput(
-      fmt::format("sampled loops: expected peaks of the sensitivity above 1 and a valve_effort "
-                  "above 0, found {}, {} at standstill and {} rad/s",
-                  goals.sensitivity_peak, goals.standstill_peak, goals.control_effort));
+  throw InvalidInput(fmt::format(
+      "sampled loops: expected peaks of the sensitivity above 1 and a valve_effort "
+      "above 0, found {}, {} at standstill, {} at an edge and {} rad/s",
+      goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak, goals.control_effort));
 }
 
 RobustConstraints::RobustConstraints(const std::vector<SampledSetting>& plants,
                                      const std::vector<SampledSetting>& at_standstill,
+                                     const std::vector<SampledSetting>& at_edges,
                                      const SampledLoopGoals& goals, unsigned threads)
-    : plants_(plants), at_standstill_(at_standstill), goals_(goals), threads_(threads) {
+    : plants_(plants),
+      at_standstill_(at_standstill),
+      at_edges_(at_edges),
+      goals_(goals),
+      threads_(threads) {
   validate(goals);
   if (plants.empty()) throw InvalidInput("sampled loops: expected at least one plant, found none");
   const Eigen::ArrayXd& frequency = plants.front().frequency();
-  for (const auto* settings : {&plants, &at_standstill}) {
+  for (const auto* settings : {&plants, &at_standstill, &at_edges}) {
     for (const SampledSetting& one : *settings) {
       if (one.frequency().size() != frequency.size() || (one.frequency() != frequency).any()) {
         throw InvalidInput("sampled loops: expected the same frequencies in every setting");
@@ -52,23 +57,31 @@ RobustConstraints::RobustConstraints(const std::vector<SampledSetting>& plants,
   }
 }
 
+bool RobustConstraints::stable(const plant::StateSpace& controller) const {
+  if (!(numerics::spectral_radius(controller.a) < 1.0)) return false;
+  for (const auto* settings : {&at_standstill_, &at_edges_, &plants_}) {
+    std::vector<double> radius(settings->size());
+    numerics::for_each_index(radius.size(), threads_, [&](std::size_t i) {
+      radius[i] = (*settings)[i].spectral_radius(controller);
+    });
+    if (!std::ranges::all_of(radius, [](double one) { return one < 1.0; })) return false;
+  }
+  return true;
+}
+
 double RobustConstraints::excess(const plant::StateSpace& controller) const {
   const Eigen::ArrayXXcd response =
       SampledSetting::controller_response(controller, plants_.front().frequency());
   const double of_peak =
-      std::log(std::max(highest_peak(plants_, response) / goals_.sensitivity_peak,
-                        highest_peak(at_standstill_, response) / goals_.standstill_peak)) +
+      std::log(std::max({highest_peak(plants_, response) / goals_.sensitivity_peak,
+                         highest_peak(at_standstill_, response) / goals_.standstill_peak,
+                         highest_peak(at_edges_, response) / goals_.edge_peak})) +
       reserve;
   if (of_peak > 0.0) return std::min(of_peak, unstable);
-  const bool steady = std::ranges::all_of(at_standstill_, [&](const SampledSetting& one) {
-    return one.spectral_radius(controller) < 1.0;
-  });
-  if (!steady || numerics::spectral_radius(controller.a) >= 1.0) return unstable;
+  if (!stable(controller)) return unstable;
   std::vector<double> effort(plants_.size());
   numerics::for_each_index(plants_.size(), threads_, [&](std::size_t i) {
-    effort[i] = plants_[i].spectral_radius(controller) < 1.0
-                    ? plants_[i].control_effort(controller)
-                    : std::numeric_limits<double>::infinity();
+    effort[i] = plants_[i].control_effort(controller);
   });
   const double largest = *std::ranges::max_element(effort);
   return std::min(std::max(of_peak, std::log(largest / goals_.control_effort) + 1e-6), unstable);

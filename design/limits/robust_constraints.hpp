@@ -12,37 +12,46 @@ struct SampledLoopGoals {
   double control_effort = 0.6;    // rad/s rms of the noise-driven command
   /// Largest |S| at the valve command on the plants at standstill (Constraints::standstill).
   double standstill_peak = 3.0;
+  /// The same on the plants at standstill at an edge between two codes of the encoder.
+  double edge_peak = 6.0;
 };
 
 /// @throws InvalidInput for a peak not above 1 or an effort not above 0.
 void validate(const SampledLoopGoals& goals);
 
 /// The goals over plants: every loop is stable and within them, those at standstill are stable with
-/// their own peak, and the controller is stable by itself. Refers to the plants; all have the same
-/// frequencies. Results do not depend on the number of threads.
+/// their own peak, and so are those at an edge of the encoder; the controller is stable by itself.
+/// Refers to the plants; all have the same frequencies. Results do not depend on the number of
+/// threads.
 class RobustConstraints {
  public:
   /// @throws InvalidInput as validate, without plants and for plants of different frequencies.
   RobustConstraints(const std::vector<SampledSetting>& plants,
-                    const std::vector<SampledSetting>& at_standstill, const SampledLoopGoals& goals,
+                    const std::vector<SampledSetting>& at_standstill,
+                    const std::vector<SampledSetting>& at_edges, const SampledLoopGoals& goals,
                     unsigned threads);
 
   const std::vector<SampledSetting>& plants() const { return plants_; }
   const std::vector<SampledSetting>& at_standstill() const { return at_standstill_; }
+  const std::vector<SampledSetting>& at_edges() const { return at_edges_; }
   const SampledLoopGoals& goals() const { return goals_; }
   unsigned threads() const { return threads_; }
 
+  /// Whether every loop and the controller by itself are stable.
+  bool stable(const plant::StateSpace& controller) const;
+
   /// ln of the largest ratio of a quantity to its goal: met up to 0. At most 3, which also stands
-  /// for an unstable loop or controller.
+  /// for an unstable loop or controller. Where a peak exceeds its goal only peaks count.
   double excess(const plant::StateSpace& controller) const;
 
-  /// The largest boresight rms (rad of motor) over the plants, not those at standstill, with a
-  /// controller that is stable on all.
+  /// The largest boresight rms (rad of motor) over the plants, not those at standstill or at edges,
+  /// with a controller that is stable on all.
   double largest_rms(const plant::StateSpace& controller) const;
 
  private:
   const std::vector<SampledSetting>& plants_;
   const std::vector<SampledSetting>& at_standstill_;
+  const std::vector<SampledSetting>& at_edges_;
   SampledLoopGoals goals_;
   unsigned threads_;
 };

@@ -70,9 +70,10 @@ Eigen::MatrixXd steady_covariance(const Eigen::MatrixXd& a, const Eigen::MatrixX
 
 SampledSetting::SampledSetting(std::string name, const plant::AntennaPlant& plant,
                                const plant::ShapingFilter& wind, const control::SensorNoise& noise,
-                               double sample_time, Eigen::ArrayXd frequency)
+                               double sample_time, Eigen::ArrayXd frequency, double encoder_gain)
     : name_(std::move(name)), plant_(plant), frequency_(std::move(frequency)) {
   problem_.plant = control::antenna_in_wind(plant, wind);
+  problem_.plant.c.row(plant::output_index(problem_.plant, "encoder")) *= encoder_gain;
   problem_.commands = {"valve_command"};
   problem_.measured = sensors();
   problem_.sample_time = problem_.computation_delay = sample_time;

@@ -43,12 +43,14 @@ struct ControllerGramians {
 class SampledSetting {
  public:
   /// `frequency`: rad/s, rising, below the Nyquist frequency; the grid of the search for Ms. Torque
-  /// noise of 0 (not stated) is replaced by a thousandth of the wind's torque.
+  /// noise of 0 (not stated) is replaced by a thousandth of the wind's torque. `encoder_gain`: by
+  /// which the encoder's reading counts more than the angle, as small motion across an edge between
+  /// two of its codes does.
   /// @throws InvalidInput for another noise that is not positive (a noiseless sensor leaves nothing
   /// to estimate), and as control::sampled_problem.
   SampledSetting(std::string name, const plant::AntennaPlant& plant,
                  const plant::ShapingFilter& wind, const control::SensorNoise& noise,
-                 double sample_time, Eigen::ArrayXd frequency);
+                 double sample_time, Eigen::ArrayXd frequency, double encoder_gain = 1.0);
 
   const std::string& name() const { return name_; }
   /// For least boresight rms: cost 1 on the boresight and a negligible cost on the command.

@@ -157,6 +157,14 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
   return result;
 }
 
+Eigen::ArrayXXd effort_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
+  const Eigen::ArrayXd size =
+      spectrum.weights.sqrt() * sensitivity_function(spectrum, controller).abs();
+  const Eigen::RowVectorXd deviation = spectrum.noise.sqrt().matrix().transpose();
+  const Eigen::ArrayXXd factors = (size.matrix() * deviation).array();
+  return factors / (factors * controller.abs()).matrix().norm();
+}
+
 MatrixXcd boresight_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
   const ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
   const ArrayXXcd with_command = controller.colwise() * sensitivity;

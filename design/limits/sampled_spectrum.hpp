@@ -55,4 +55,9 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd
 Eigen::MatrixXcd boresight_curvature(const SampledSpectrum& spectrum,
                                      const Eigen::ArrayXXcd& controller);
 
+/// The same of the effort's mean square, frequencies x sensors: it adds |factor_i dK_i|^2, summed
+/// over frequencies and sensors.
+Eigen::ArrayXXd effort_curvature(const SampledSpectrum& spectrum,
+                                 const Eigen::ArrayXXcd& controller);
+
 }  // namespace boresight::design

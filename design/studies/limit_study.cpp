@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/limit_study.hpp>
+#include <boresight/design/studies/time_domain_study.hpp>
 
 namespace boresight::design {
 
@@ -19,6 +21,14 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
   PointingLimitOptions options;
   options.sample_time = control::sample_time_of(problem.delay);
   options.threads = threads;
+  if (const TunedController* recommended = recommended_tuned_controller(section, wind_speed)) {
+    options.start = {description_of(*recommended), recommended->design.tuning.controller};
+  }
+  if (mission.antenna.nonlinear) {
+    options.accepts = [&](const plant::StateSpace& controller) {
+      return stands_still(mission, problem, controller, threads);
+    };
+  }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/design/decisions/negligible_change.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -29,7 +30,9 @@ StateSpaceVerdict verdict(const StateSpaceStudy& study) {
   if (!study.limit_cycle_free) return StateSpaceVerdict::limit_cycle;
   const auto& slew = study.simulated.result.slew;
   if (slew && !slew->settling_time) return StateSpaceVerdict::unsettled;
-  return study.change->upper < 0.0 ? StateSpaceVerdict::better : StateSpaceVerdict::no_advantage;
+  return study.change->upper < 0.0 && study.change->value < -negligible_change
+             ? StateSpaceVerdict::better
+             : StateSpaceVerdict::no_advantage;
 }
 
 std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
@@ -39,6 +42,7 @@ std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
   if (!limit.refined || !mission.antenna.nonlinear) return std::nullopt;
   StateSpaceStudy study;
   study.controller = control::antenna_state_space_controller(limit.refined->controller);
+  study.start = limit.refined_from;
   study.wind_speed = problem.wind.mean_speed;
   NonlinearVerificationOptions options = loops.options;
   options.explain = options.second_integrator = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include <boresight/design/limits/pointing_limit.hpp>
@@ -14,6 +15,7 @@ namespace boresight::design {
 struct StateSpaceStudy {
   /// Sampled, in the form of control::antenna_state_space_controller.
   plant::StateSpace controller;
+  std::string start;        // PointingLimit::refined_from
   double wind_speed = 0.0;  // m/s, mean
   /// Of the name "state space, order N".
   SimulatedCandidate simulated;
@@ -28,7 +30,7 @@ enum class StateSpaceVerdict {
   incomplete,    // a run did not complete
   limit_cycle,   // beyond the tightest budget
   unsettled,     // after a slew, within the tightest budget
-  better,        // by the whole 95 % interval of the change
+  better,        // by more than negligible_change and by the whole 95 % interval
   no_advantage,  // none of these
 };
 std::string_view to_string(StateSpaceVerdict verdict);

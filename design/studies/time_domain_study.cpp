@@ -2,10 +2,13 @@
 #include <cmath>
 #include <utility>
 
+#include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
+#include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 
 namespace boresight::design {
@@ -255,6 +258,20 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const NamedController& controller,
     const NonlinearVerificationOptions& options) {
   return compare_in_time_domain(mission, problem, controller.name, controller.controller, options);
+}
+
+bool stands_still(const Mission& mission, const TrackingProblem& problem,
+                  const plant::StateSpace& controller, unsigned threads) {
+  const TimeDomainStudy section = plan(mission, problem, "", 1, 1);
+  const auto loop = loop_of(mission, problem, control::antenna_state_space_controller(controller),
+                            section.encoder_resolution);
+  std::vector<LimitCycleResult> runs(limit_cycle_starts);
+  numerics::for_each_index(runs.size(), threads, [&](std::size_t i) {
+    runs[i] = limit_cycle_run(loop, section.options, 0.0, i);
+  });
+  return std::ranges::all_of(runs, [](const LimitCycleResult& run) {
+    return run.status == RunStatus::complete && !run.limit_cycle;
+  });
 }
 
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

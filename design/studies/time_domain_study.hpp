@@ -124,6 +124,11 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
     const control::FeedbackController& controller, const NonlinearVerificationOptions& options);
+/// True if no start of the search for limit cycles at rest (limit_cycle_run) ends in one. Runs the
+/// nonlinear antenna for some 220 s from each. The problem is one of the mission, which must have
+/// Antenna::nonlinear. @throws as run_loop.
+bool stands_still(const Mission& mission, const TrackingProblem& problem,
+                  const plant::StateSpace& controller, unsigned threads);
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads);

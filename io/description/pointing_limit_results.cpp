@@ -124,8 +124,9 @@ void describe(Visitor& v, const design::PointingLimit& limit) {
                    "LQG that keeps the goals on every member: a benchmark.", described_lqg);
   v.optional_group(
       "refined", limit.refined,
-      "The robustified LQG refined by gradient within the same constraints; null without it.",
+      "State-space controller, by gradient within the constraints on every member; null without.",
       [&](const design::SampledDesign& design) { describe_defined_design(v, design); });
+  v.text("refined_from", limit.refined_from, "Start of that search; empty without.");
   v.number("full_information_rms", limit.full_information_rms, unit::millidegree,
            "Least of any controller that knows the whole state at each sample, effort free.",
            positive);

@@ -13,7 +13,7 @@ void describe(Visitor& v, const design::StateSpaceStudy& study) {
       "verdict", to_string(verdict(study)),
       {"incomplete", "limit_cycle", "unsettled", "better", "no_advantage"},
       "The first that applies: a run did not complete; a limit cycle beyond the tightest budget; "
-      "not within it after a slew; less rms than the loops by the whole interval; none of these.");
+      "not within it after a slew; less rms than the loops, by more than a tie; none of these.");
   v.number("wind_speed", study.wind_speed, unit::metre_per_second, "Mean.", {.minimum = 0.0});
   v.object("runs", study.simulated.result, "Its runs, as those of the loops in `time_domain`.");
   v.object("expected_rms", study.simulated.rms, "Over the same records of wind as the loops'.");

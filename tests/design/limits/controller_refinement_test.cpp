@@ -5,10 +5,13 @@
 
 #include "design/reference_problem.hpp"
 #include "refused_call.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/controller_refinement.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
+#include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/numerics/angles.hpp>
+#include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -34,7 +37,7 @@ TEST(ControllerRefinement, ComesNearTheBoundWhereItIsAttainable) {
   const TrackingProblem problem = problem_with_torque_noise();
   const std::vector<SampledSetting> itself{setting_of(problem, problem.plant)}, none;
   const SampledLoopGoals goals{20.0, 0.6, 3.0};
-  const RobustConstraints constraints(itself, none, goals, 1);
+  const RobustConstraints constraints(itself, none, none, goals, 1);
   // With half the effort and a limit on its peak.
   const auto lqg = search_limited_lqg(itself.front(), {2.0, 0.3, 3.0});
   ASSERT_TRUE(lqg.found);
@@ -53,7 +56,7 @@ TEST(ControllerRefinement, ComesNearTheBoundWhereItIsAttainable) {
 
 TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
   const TrackingProblem problem = problem_with_torque_noise();
-  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, held;
+  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, held, none;
   for (const double factor : {0.96, 1.04}) {
     plant::AntennaPlant other = problem.plant;
     for (auto& mode : other.structure.modes) mode.stiffness *= factor * factor;
@@ -62,7 +65,7 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
   plant::AntennaPlant stuck = problem.plant;
   stuck.drive.viscous_friction = 300.0;
   held.push_back(setting_of(problem, stuck));
-  const RobustConstraints constraints(plants, held, {}, 1);
+  const RobustConstraints constraints(plants, held, none, {}, 1);
   const auto lqg = search_robust_lqg(plants.front(), constraints);
   ASSERT_TRUE(lqg.found);
   const auto found = refine_controller(lqg.controller, constraints, {.steps = 12});
@@ -74,7 +77,7 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
   EXPECT_LE(held.front().boresight_rms(found.controller),
             1.16 * held.front().boresight_rms(lqg.controller));
 
-  const RobustConstraints threaded(plants, held, {}, 3);
+  const RobustConstraints threaded(plants, held, none, {}, 3);
   const auto again = refine_controller(lqg.controller, threaded, {.steps = 12});
   EXPECT_EQ(again.controller.a, found.controller.a);
   EXPECT_EQ(again.controller.b, found.controller.b);
@@ -82,10 +85,45 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
 
   EXPECT_THAT([&] { (void)refine_controller(lqg.controller, constraints, {.steps = 0}); },
               ThrowsMessage<InvalidInput>(HasSubstr("at least 1 step")));
-  const RobustConstraints strict(plants, held, {1.05, 0.6, 3.0}, 1);
-  EXPECT_THAT(
-      [&] { (void)refine_controller(lqg.controller, strict); },
-      ThrowsMessage<InvalidInput>(HasSubstr("expected a start that meets its constraints")));
+  plant::StateSpace unstable = lqg.controller;
+  unstable.c *= -1.0;
+  EXPECT_THAT([&] { (void)refine_controller(unstable, constraints); },
+              ThrowsMessage<InvalidInput>(HasSubstr("expected a start that is stable")));
+}
+
+// Loops with more effort than allowed, and poles for the search to use.
+TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
+  const TrackingProblem problem = problem_with_torque_noise();
+  const std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, none;
+  const plant::StateSpace loops =
+      control::sampled_loop(
+          plants.front().problem().plant,
+          {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}, 0.02)
+          .controller;
+  const auto lqg = search_limited_lqg(plants.front(), {});
+  ASSERT_TRUE(lqg.found);
+  constexpr double slowest = 0.3;
+  const plant::StateSpace start = with_idle_poles(loops, lqg.controller, slowest);
+  const double effort = plants.front().control_effort(start);
+  const RobustConstraints constraints(plants, none, none, {2.5, 0.9 * effort}, 1);
+  ASSERT_GT(constraints.excess(start), 0.05);
+  const auto found = refine_controller(start, constraints, {.steps = 50, .slowest_pole = slowest});
+  EXPECT_TRUE(found.feasible);
+  EXPECT_LE(constraints.excess(found.controller), 0.0);
+  EXPECT_LT(found.boresight_rms, plants.front().boresight_rms(start));
+  const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.controller.a).values;
+  EXPECT_GT(((1.0 - poles.real().array()) / 0.02).minCoeff(), 0.99 * slowest);
+
+  // Steps that something else refuses do not count.
+  int asked = 0;
+  const auto refused =
+      refine_controller(start, constraints, {.steps = 50, .accepts = [&](const plant::StateSpace&) {
+                                               ++asked;
+                                               return false;
+                                             }});
+  EXPECT_FALSE(refused.feasible);
+  EXPECT_GT(asked, 0);
+  EXPECT_LE(asked, 3);
 }
 
 }  // namespace

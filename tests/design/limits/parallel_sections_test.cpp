@@ -114,6 +114,57 @@ TEST(ParallelSections, ConditionsAreNegativeWhereTheControllerIsStable) {
   }
 }
 
+TEST(ParallelSections, ConditionsAreNegativeWhereNoPoleIsSlowerThanAllowed) {
+  // The slowest of this controller: 0.00003 a sample.
+  const double slowest = 3e-5 / 0.02;
+  const Eigen::VectorXd here = ParallelSections(controller()).parameters();
+  EXPECT_LT(ParallelSections(controller(), 0.9 * slowest).stability(here).conditions.maxCoeff(),
+            0.0);
+  const ParallelSections sections(controller(), 1.1 * slowest);
+  EXPECT_GT(sections.stability(here).conditions.maxCoeff(), 0.0);
+  int slow = 0, all = 0;
+  for (const Eigen::Index parameter : {0, 1, 8, 9, 16}) {
+    for (const double change : {-6.0, -2.0, -0.5, 0.5, 2.0}) {
+      Eigen::VectorXd parameters = here;
+      parameters[parameter] += change;
+      const Eigen::VectorXcd poles =
+          numerics::eigen_decomposition(sections.state_space(parameters).a).values;
+      if (poles.cwiseAbs().maxCoeff() >= 1.0) continue;
+      const double found = ((1.0 - poles.real().array()) / 0.02).minCoeff();
+      EXPECT_EQ(found<1.1 * slowest, sections.stability(parameters).conditions.maxCoeff()> 0.0)
+          << parameter << ' ' << change;
+      slow += found < 1.1 * slowest ? 1 : 0;
+      ++all;
+    }
+  }
+  EXPECT_GT(slow, 3);
+  EXPECT_LT(slow, all - 1);
+  const auto found = sections.stability(here);
+  for (Eigen::Index k = 0; k < here.size(); ++k) {
+    Eigen::VectorXd above = here, below = here;
+    above[k] += 1e-6;
+    below[k] -= 1e-6;
+    const Eigen::VectorXd slope =
+        (sections.stability(above).conditions - sections.stability(below).conditions) / 2e-6;
+    EXPECT_LT((slope - found.gradients.col(k)).cwiseAbs().maxCoeff(), 1e-6) << k;
+  }
+}
+
+TEST(ParallelSections, IdlePolesChangeNothingAndAreFastEnough) {
+  plant::StateSpace own = controller();
+  own.a *= 0.7;
+  const plant::StateSpace found = with_idle_poles(own, controller(), 0.2);
+  EXPECT_EQ(found.a.rows(), 10);
+  const auto expected = SampledSetting::controller_response(own, frequency());
+  const auto response = SampledSetting::controller_response(found, frequency());
+  EXPECT_LT((response - expected).abs().maxCoeff(), 1e-12 * expected.abs().maxCoeff());
+  const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.a).values;
+  // The pole at 0.99997, which is slower than 0.2 rad/s.
+  EXPECT_NEAR(poles.real().maxCoeff(), 1.0 - 1.1 * 0.2 * 0.02, 1e-9);
+  const ParallelSections sections(found, 0.2);
+  EXPECT_LT(sections.stability(sections.parameters()).conditions.maxCoeff(), 0.0);
+}
+
 TEST(ParallelSections, RefuseWhatIsNoStableSampledController) {
   plant::StateSpace unstable = controller();
   unstable.a *= 1.01;

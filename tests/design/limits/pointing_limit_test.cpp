@@ -187,6 +187,7 @@ TEST(PointingLimit, IsRobustOnEveryMemberOnceRobustified) {
                    controller.design.worst_rms / design.worst_rms);
   EXPECT_EQ(design.members.front().plant, "slow structure");
   ASSERT_TRUE(limit.refined);
+  EXPECT_EQ(limit.refined_from, "robust LQG");
   EXPECT_LT(limit.refined->worst_rms, 0.99 * design.worst_rms);
   EXPECT_EQ(limit.refined->controller.a.rows(), design.controller.a.rows());
   for (const SampledResult& member : limit.refined->members) {
@@ -194,6 +195,24 @@ TEST(PointingLimit, IsRobustOnEveryMemberOnceRobustified) {
     EXPECT_LE(member.peak.magnitude, 2.0) << member.plant;
     EXPECT_LE(member.control_effort, 0.6) << member.plant;
   }
+}
+
+// Loops without integrals are a start for the refinement, others are not.
+TEST(PointingLimit, RefinesFromTheLoopsItIsGiven) {
+  const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
+  const TrackingProblem problem = problem_with_torque_noise();
+  const DescribedController loops{
+      "lags", {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}};
+  const auto from = [&](const DescribedController& start) {
+    return pointing_limit(problem, {}, members, {loops}, {.threads = 2, .start = start});
+  };
+  const PointingLimit limit = from(loops);
+  ASSERT_TRUE(limit.robustified && limit.refined);
+  EXPECT_EQ(limit.refined_from, "lags");
+  EXPECT_EQ(limit.refined->controller.a.rows(), 2 + limit.robustified->design.controller.a.rows());
+  EXPECT_LT(limit.refined->worst_rms, 0.9 * limit.controllers.front().design.worst_rms);
+  EXPECT_EQ(limit.refined->stable_members, 1);
+  EXPECT_EQ(from(tuned_controllers().front()).refined_from, "robust LQG");
 }
 
 // Friction slopes of the constraint, and larger ones up to ten times.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -35,7 +36,7 @@ struct Plants {
 TEST(RobustConstraints, ExcessIsTheLargestRatioToAGoal) {
   const Plants plants;
   const std::vector<SampledSetting> moving{plants.with_friction(0.9)};
-  const std::vector<SampledSetting> held{plants.with_friction(5.0)};
+  const std::vector<SampledSetting> held{plants.with_friction(5.0)}, none;
   const auto controller =
       control::sampled_loop(
           moving.front().problem().plant,
@@ -48,14 +49,56 @@ TEST(RobustConstraints, ExcessIsTheLargestRatioToAGoal) {
   ASSERT_LT(held.front().spectral_radius(controller), 1.0);
   ASSERT_GT(held_peak, 1.31);
   const auto excess = [&](const SampledLoopGoals& goals) {
-    return RobustConstraints(moving, held, goals, 1).excess(controller);
+    return RobustConstraints(moving, held, none, goals, 1).excess(controller);
   };
   EXPECT_LE(excess({1.01 * peak, 1.01 * effort, 1.01 * held_peak}), 0.0);
   EXPECT_NEAR(excess({peak / 1.1, 2.0 * effort, 2.0 * held_peak}), std::log(1.1), 2e-3);
   EXPECT_NEAR(excess({2.0 * peak, effort / 1.2, 2.0 * held_peak}), std::log(1.2), 2e-3);
   EXPECT_NEAR(excess({2.0 * peak, 2.0 * effort, held_peak / 1.3}), std::log(1.3), 2e-3);
-  EXPECT_DOUBLE_EQ(RobustConstraints(moving, held, {}, 1).largest_rms(controller),
+  EXPECT_DOUBLE_EQ(RobustConstraints(moving, held, none, {}, 1).largest_rms(controller),
                    moving.front().boresight_rms(controller));
+}
+
+// A gain of the encoder is one of the controller from there.
+TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
+  const Plants plants;
+  const std::vector<SampledSetting> moving{plants.with_friction(0.9)}, none;
+  auto controller =
+      control::sampled_loop(
+          moving.front().problem().plant,
+          {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}, 0.02)
+          .controller;
+  plant::AntennaPlant held = plants.problem.plant;
+  held.drive.viscous_friction = 5.0;
+  const auto setting = [&](double gain) {
+    return SampledSetting("edge", held, fit_wind_filter(plants.problem), plants.problem.noise, 0.02,
+                          plants.frequency, gain);
+  };
+  const std::vector<SampledSetting> at_edges{setting(1.4)};
+  const double peak =
+      at_edges.front()
+          .highest_peak(SampledSetting::controller_response(controller, plants.frequency))
+          .magnitude;
+  EXPECT_NEAR(
+      RobustConstraints(moving, none, at_edges, {1e3, 1e3, 1e3, peak / 1.2}, 1).excess(controller),
+      std::log(1.2), 2e-3);
+  const double radius = at_edges.front().spectral_radius(controller);
+  const auto encoder = std::ranges::find(controller.inputs, "encoder") - controller.inputs.begin();
+  controller.b.col(encoder) *= 1.4;
+  controller.d.col(encoder) *= 1.4;
+  EXPECT_NEAR(setting(1.0).spectral_radius(controller), radius, 1e-12);
+  EXPECT_NEAR(setting(1.0)
+                  .highest_peak(SampledSetting::controller_response(controller, plants.frequency))
+                  .magnitude,
+              peak, 1e-9 * peak);
+  // So large a gain that the loop is unstable.
+  const std::vector<SampledSetting> unstable{setting(50.0)};
+  const auto with = [&](const std::vector<SampledSetting>& edges) {
+    return RobustConstraints(moving, none, edges, {1e9, 1e9, 1e9, 1e9}, 1);
+  };
+  EXPECT_TRUE(with(none).stable(controller));
+  EXPECT_FALSE(with(unstable).stable(controller));
+  EXPECT_EQ(with(unstable).excess(controller), 3.0);
 }
 
 TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
@@ -65,7 +108,7 @@ TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
   controller.c *= -1.0;
   controller.d *= -1.0;
   ASSERT_GT(moving.front().spectral_radius(controller), 1.0);
-  EXPECT_EQ(RobustConstraints(moving, none, {1e9, 1e9, 1e9}, 2).excess(controller), 3.0);
+  EXPECT_EQ(RobustConstraints(moving, none, none, {1e9, 1e9, 1e9}, 2).excess(controller), 3.0);
 }
 
 TEST(RobustConstraints, AControllerThatIsUnstableByItselfExceedsThemToo) {
@@ -75,16 +118,17 @@ TEST(RobustConstraints, AControllerThatIsUnstableByItselfExceedsThemToo) {
       moving.front(), {.command_weight = 0.05, .input_noise = 1e-3, .friction_torque = 20.0});
   ASSERT_LT(moving.front().spectral_radius(controller), 1.0);
   ASSERT_GT(numerics::spectral_radius(controller.a), 1.0);
-  EXPECT_EQ(RobustConstraints(moving, none, {1e9, 1e9, 1e9}, 1).excess(controller), 3.0);
+  EXPECT_EQ(RobustConstraints(moving, none, none, {1e9, 1e9, 1e9}, 1).excess(controller), 3.0);
 }
 
 TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
   const Plants plants;
   const std::vector<SampledSetting> one{plants.with_friction(0.9)}, none;
-  const auto constraints = [](const std::vector<SampledSetting>& moving,
-                              const std::vector<SampledSetting>& held,
-                              const SampledLoopGoals& goals) {
-    return [&moving, &held, goals] { (void)RobustConstraints(moving, held, goals, 1); };
+  const auto constraints = [&none](const std::vector<SampledSetting>& moving,
+                                   const std::vector<SampledSetting>& held,
+                                   const SampledLoopGoals& goals) {
+    return
+        [&moving, &held, &none, goals] { (void)RobustConstraints(moving, held, none, goals, 1); };
   };
   EXPECT_THAT(constraints(none, none, {}),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one plant")));
@@ -95,8 +139,8 @@ TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
               ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
   EXPECT_THAT(
       constraints(one, none, {2.0, 0.0, 3.0}),
-      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill "
-                                            "and 0 rad/s")));
+      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill, 6 "
+                                            "at an edge and 0 rad/s")));
 }
 
 }  // namespace

@@ -70,6 +70,21 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
 }
 
 // Without feedback through the plant the mean square is exactly quadratic in the controller.
+// Without a response of the plant the effort is a square of the controller: gradient and curvature
+// are all there is.
+TEST(SampledSpectrum, EffortIsItsGradientAndCurvatureWhereNothingComesBack) {
+  Loop loop;
+  loop.spectrum.response.setZero();
+  const Eigen::ArrayXXcd change = 0.3 * loop.response.conjugate() + 0.1 * loop.response;
+  const LoopFigure before = loop_figures(loop.spectrum, loop.response).control_effort;
+  const LoopFigure after = loop_figures(loop.spectrum, loop.response + change).control_effort;
+  const double curved =
+      (effort_curvature(loop.spectrum, loop.response) * change.abs()).square().sum();
+  const double slope = 4.0 * (before.gradient * change).sum().real();
+  EXPECT_NEAR(std::exp(2.0 * (after.logarithm - before.logarithm)), 1.0 + slope + curved, 1e-12);
+  EXPECT_GT(curved, 0.01);
+}
+
 TEST(SampledSpectrum, CurvatureIsThatOfTheMeanSquare) {
   Loop loop;
   loop.spectrum.response.setZero();

@@ -42,12 +42,16 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   ASSERT_TRUE(study->simulated.result.slew);
   EXPECT_EQ(study->limit_cycle_free,
             is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));
+  const auto& at_rest = simulated->result.limit_cycles.front();
+  ASSERT_EQ(at_rest.rate, 0.0);
+  EXPECT_EQ(stands_still(mission, problem, study->controller, 2),
+            at_rest.starts_with_limit_cycle == 0);
 }
 
 TEST(StateSpaceStudy, VerdictIsTheFirstThatApplies) {
   StateSpaceStudy study;
   EXPECT_EQ(verdict(study), StateSpaceVerdict::incomplete);
-  study.change.emplace().upper = -0.01;
+  study.change = {-0.03, 0.01, -0.05, -0.01};
   EXPECT_EQ(verdict(study), StateSpaceVerdict::limit_cycle);
   study.limit_cycle_free = true;
   EXPECT_EQ(verdict(study), StateSpaceVerdict::better);
@@ -55,7 +59,9 @@ TEST(StateSpaceStudy, VerdictIsTheFirstThatApplies) {
   EXPECT_EQ(verdict(study), StateSpaceVerdict::unsettled);
   study.simulated.result.slew->settling_time = 0.0;
   EXPECT_EQ(verdict(study), StateSpaceVerdict::better);
-  study.change->upper = 0.0;
+  study.change->value = -0.015;
+  EXPECT_EQ(verdict(study), StateSpaceVerdict::no_advantage);
+  study.change = {-0.03, 0.015, -0.06, 0.0};
   EXPECT_EQ(verdict(study), StateSpaceVerdict::no_advantage);
 }
 

@@ -116,9 +116,9 @@ class Refinement {
         continue;
       }
       const double excess = constraints_.excess(found.controller);
-      if (excess > found.missed) {
+      const double beyond = excess - (result.feasible ? 0.0 : found.missed);
+      if (beyond > 0.0) {
         // A peak between the points: keep more in hand. Else the step was too long.
-        const double beyond = excess - found.missed;
         if (beyond < most_margins * margin_) {
           margin_ += beyond;
           best += slack_cost * beyond;  // what the last step costs with that, at most
@@ -135,13 +135,12 @@ class Refinement {
       const double rms = constraints_.largest_rms(found.controller);
       const bool feasible = !(excess > 0.0);
       // What the grid shows may be no more than its error.
-      const bool better = !result.feasible || rms < result.boresight_rms;
-      if (better && feasible && options_.accepts && !options_.accepts(found.controller)) {
-        if (++refused == most_refused) break;
+      if (result.feasible && !(rms < result.boresight_rms)) {
         radius *= 0.5;
         continue;
       }
-      if (!better) {
+      if (feasible && options_.accepts && !options_.accepts(found.controller)) {
+        if (++refused == most_refused) break;
         radius *= 0.5;
         continue;
       }

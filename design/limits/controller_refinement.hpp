@@ -7,7 +7,7 @@
 namespace boresight::design {
 
 struct RefinementOptions {
-  /// Steps of the search. Each takes some 0.5 s of computing with 31 plants and order 21.
+  /// Steps of the search. Each takes about 1 s of computing with 31 plants and order 25.
   int steps = 24;
   /// rad/s: no pole of the controller becomes slower, unless the start has slower ones. What a slew
   /// leaves in slow poles decays as slowly.

@@ -202,12 +202,12 @@
     };
     const count = figure.panels.length;
     const gap = count > 1 ? 0.07 : 0;
-    const height = (1 - gap * (count - 1)) / count;
+    const panelHeight = (1 - gap * (count - 1)) / count;
     figure.panels.forEach((panel, p) => {
       const id = p === 0 ? "" : `${p + 1}`;
       const axes = { xaxis: "x", yaxis: `y${id}` };
-      const top = 1 - p * (height + gap);
-      layout[`yaxis${id}`] = { ...axisLayout(panel.y, 3), anchor: "x", domain: [Math.max(0, top - height), top] };
+      const top = 1 - p * (panelHeight + gap);
+      layout[`yaxis${id}`] = { ...axisLayout(panel.y, 3), anchor: "x", domain: [Math.max(0, top - panelHeight), top] };
       if (panel.y.categories) layout[`yaxis${id}`].range.reverse();
       if (figure.equal_scales) Object.assign(layout[`yaxis${id}`], { scaleanchor: "x", scaleratio: 1 });
       layout.shapes.push(...shapes(panel, `y${id}`));

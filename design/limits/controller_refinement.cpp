@@ -30,7 +30,7 @@ constexpr double slow_spacing = 1.3, slow_decades = 3.0;
 // What the constraints keep in hand for peaks between the points, and how far a step may miss that.
 constexpr double first_margin = 4e-3, tolerance = 1e-3;
 // Of the margin: what a missed peak may add, and what a step that counts leaves.
-constexpr double most_margins = 5.0, margin_fall = 0.8;
+constexpr double max_margins = 5.0, margin_fall = 0.8;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5;
 // An rms at standstill may be that much of the start's when the largest over the plants is as
 // large.
@@ -39,7 +39,7 @@ constexpr double allowance_at_standstill = 1.15;
 constexpr double slack_cost = 5.0, max_slack = 3.0;
 constexpr int evaluations_a_step = 10;
 // Steps in a row that RefinementOptions::accepts may refuse.
-constexpr int most_refused = 3;
+constexpr int max_refused = 3;
 constexpr std::size_t plants_a_block = 6;
 constexpr Index figures_a_plant = 3;
 constexpr double worthwhile = 1e-4;
@@ -119,7 +119,7 @@ class Refinement {
       const double beyond = excess - (result.feasible ? 0.0 : found.missed);
       if (beyond > 0.0) {
         // A peak between the points: keep more in hand. Else the step was too long.
-        if (beyond < most_margins * margin_) {
+        if (beyond < max_margins * margin_) {
           margin_ += beyond;
           best += slack_cost * beyond;  // what the last step costs with that, at most
         } else {
@@ -140,7 +140,7 @@ class Refinement {
         continue;
       }
       if (feasible && options_.accepts && !options_.accepts(found.controller)) {
-        if (++refused == most_refused) break;
+        if (++refused == max_refused) break;
         radius *= 0.5;
         continue;
       }
@@ -167,7 +167,7 @@ class Refinement {
     long evaluations = 0;
   };
 
-  std::vector<SampledSpectrum> spectra(const std::vector<SampledSetting>& settings) const {
+  std::vector<SampledSpectrum> spectra(std::span<const SampledSetting> settings) const {
     std::vector<SampledSpectrum> result(settings.size());
     numerics::for_each_index(settings.size(), constraints_.threads(), [&](std::size_t i) {
       result[i] = sampled_spectrum(settings[i], frequency_);

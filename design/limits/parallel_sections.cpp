@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <boresight/design/limits/parallel_sections.hpp>
+#include <boresight/design/limits/sampled_setting.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
@@ -25,11 +26,6 @@ constexpr double reserve = 2e-3;
 // A pole with no more imaginary part than that, relative to it, is real.
 constexpr double real_within = 1e-12;
 
-const std::vector<std::string>& sensor_names() {
-  static const std::vector<std::string> names{"tachometer", "encoder", "motor_torque"};
-  return names;
-}
-
 // A pole in delta and its residues per sensor.
 struct Pole {
   Complex place;
@@ -43,24 +39,16 @@ ParallelSections::ParallelSections(const plant::StateSpace& controller, double s
   if (!(sample_time_ > 0.0)) {
     throw InvalidInput("parallel sections: expected a sampled controller, found a continuous one");
   }
-  const Index output = plant::output_index(controller, "valve_command");
-  const auto modes = numerics::eigen_decomposition(controller.a);
-  if (controller.a.rows() > 0 && !(modes.values.cwiseAbs().maxCoeff() < 1.0)) {
+  const plant::StateSpace own = from_sensors(controller);
+  const auto modes = numerics::eigen_decomposition(own.a);
+  if (own.a.rows() > 0 && !(modes.values.cwiseAbs().maxCoeff() < 1.0)) {
     throw InvalidInput(
         fmt::format("parallel sections: expected a controller that is stable by itself, found a "
                     "pole of magnitude {:.6f}",
                     modes.values.cwiseAbs().maxCoeff()));
   }
-  Eigen::MatrixXcd into = Eigen::MatrixXcd::Zero(controller.a.rows(), sensors);
-  Eigen::Vector3d direct = Eigen::Vector3d::Zero();
-  for (Index i = 0; i < sensors; ++i) {
-    const auto found = std::ranges::find(controller.inputs, sensor_names()[std::size_t(i)]);
-    if (found == controller.inputs.end()) continue;
-    const Index column = found - controller.inputs.begin();
-    into.col(i) = modes.left.adjoint() * controller.b.col(column);
-    direct[i] = controller.d(output, column);
-  }
-  const Eigen::RowVectorXcd out = controller.c.row(output) * modes.right;
+  const Eigen::MatrixXcd into = modes.left.adjoint() * own.b;
+  const Eigen::RowVectorXcd out = own.c * modes.right;
   std::vector<Pole> real, upper;
   for (Index i = 0; i < modes.values.size(); ++i) {
     const Complex place = (modes.values[i] - 1.0) / sample_time_;
@@ -91,7 +79,7 @@ ParallelSections::ParallelSections(const plant::StateSpace& controller, double s
     parameters_[next++] = std::log(-real.front().place.real());
     for (Index i = 0; i < sensors; ++i) parameters_[next++] = real.front().residue[i].real();
   }
-  parameters_.tail(sensors) = direct;
+  parameters_.tail(sensors) = own.d.transpose();
 }
 
 std::vector<Index> ParallelSections::logarithms() const {
@@ -110,7 +98,7 @@ plant::StateSpace ParallelSections::state_space(const Eigen::VectorXd& parameter
                            Eigen::MatrixXd::Zero(states, sensors),
                            Eigen::MatrixXd::Zero(1, states),
                            parameters.tail(sensors).transpose(),
-                           sensor_names(),
+                           SampledSetting::sensors(),
                            {"valve_command"},
                            {},
                            sample_time_};
@@ -236,38 +224,22 @@ plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
     }
     added.push_back(place);
   }
-  const auto states = [](const Complex& place) -> Index { return place.imag() > 0.0 ? 2 : 1; };
-  Index count = controller.a.rows(), row = count;
-  for (const Complex& place : added) count += states(place);
-  const Index output = plant::output_index(controller, "valve_command");
-  plant::StateSpace result{Eigen::MatrixXd::Identity(count, count),
-                           Eigen::MatrixXd::Zero(count, sensors),
-                           Eigen::MatrixXd::Zero(1, count),
-                           Eigen::MatrixXd::Zero(1, sensors),
-                           sensor_names(),
-                           {"valve_command"},
-                           {},
-                           time};
-  result.a.topLeftCorner(row, row) = controller.a;
-  for (Index i = 0; i < sensors; ++i) {
-    const auto found = std::ranges::find(controller.inputs, sensor_names()[std::size_t(i)]);
-    if (found == controller.inputs.end()) continue;
-    const Index column = found - controller.inputs.begin();
-    result.b.col(i).head(row) = controller.b.col(column);
-    result.d(0, i) = controller.d(output, column);
-  }
-  result.c.leftCols(row) = controller.c.row(output);
+  plant::StateSpace result = from_sensors(controller);
   for (const Complex& place : added) {
-    result.a(row, row) += time * place.real();
-    result.c(0, row) = 1.0;
-    if (states(place) == 2) {
-      result.a(row + 1, row + 1) += time * place.real();
+    const Index row = result.a.rows(), states = place.imag() > 0.0 ? 2 : 1, all = row + states;
+    result.a.conservativeResizeLike(Eigen::MatrixXd::Zero(all, all));
+    result.b.conservativeResizeLike(Eigen::MatrixXd::Zero(all, sensors));
+    result.c.conservativeResizeLike(Eigen::MatrixXd::Zero(1, all));
+    result.a.bottomRightCorner(states, states).diagonal().setConstant(1.0 + time * place.real());
+    if (states == 2) {
       result.a(row, row + 1) = time * place.imag();
       result.a(row + 1, row) = -time * place.imag();
     }
-    row += states(place);
+    result.c(0, row) = 1.0;
+    for (Index i = 1; i <= states; ++i) {
+      result.states.push_back(fmt::format("idle_{}", row + i - controller.a.rows()));
+    }
   }
-  for (Index i = 1; i <= count; ++i) result.states.push_back(fmt::format("state_{}", i));
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -90,8 +91,7 @@ class Study {
     for (const EnsembleMember& member : held) add(at_standstill_, member.name, member.plant);
     if (!goals.standstill || goals.standstill->friction.empty()) return;
     const std::vector<double>& slopes = goals.standstill->friction;
-    as_constrained_.assign(at_standstill_.begin(),
-                           at_standstill_.begin() + static_cast<std::ptrdiff_t>(slopes.size()));
+    stated_slopes_ = slopes.size();
     for (const double factor : slopes_at_edges) {
       plant::AntennaPlant plant = problem.plant;
       plant.drive.viscous_friction = factor * *std::ranges::max_element(slopes);
@@ -153,8 +153,9 @@ class Study {
         RefinementOptions options;
         options.steps = steps_from_loops;
         options.slowest_pole = slowest_pole;
-        for (const auto* edges : {&at_edges_, &none_}) {
-          const RobustConstraints constraints(settings_, as_constrained_, *edges, goals_, threads_);
+        const auto stated = std::span(at_standstill_).first(stated_slopes_);
+        for (const auto edges : {std::span(at_edges_), std::span<const SampledSetting>()}) {
+          const RobustConstraints constraints(settings_, stated, edges, goals_, threads_);
           if (!constraints.stable(start)) continue;
           if (accepts_ && accepts_(start)) options.accepts = accepts_;
           found = refine_controller(start, constraints, options);
@@ -269,7 +270,7 @@ class Study {
 
  private:
   RobustConstraints constraints() const {
-    return {settings_, at_standstill_, none_, goals_, threads_};
+    return {settings_, at_standstill_, {}, goals_, threads_};
   }
 
   unsigned threads_;
@@ -280,8 +281,8 @@ class Study {
   plant::ShapingFilter filter_;
   std::vector<SampledSetting> settings_;  // nominal, then the members
   std::vector<SampledSetting> at_standstill_;
-  std::vector<SampledSetting> as_constrained_;  // of these, the constraint's own slopes
-  std::vector<SampledSetting> at_edges_, none_;
+  std::size_t stated_slopes_ = 0;  // of these, the first: the constraint's own
+  std::vector<SampledSetting> at_edges_;
 };
 
 ControllerAgainstLimit against(const DescribedController& named, const Study& study,

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
 
-double highest_peak(const std::vector<SampledSetting>& settings, const Eigen::ArrayXXcd& response) {
+double highest_peak(std::span<const SampledSetting> settings, const Eigen::ArrayXXcd& response) {
   double peak = 0.0;
   for (const SampledSetting& one : settings) {
     peak = std::max(peak, one.highest_peak(response).magnitude);
@@ -36,9 +37,9 @@ void validate(const SampledLoopGoals& goals) {
       goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak, goals.control_effort));
 }
 
-RobustConstraints::RobustConstraints(const std::vector<SampledSetting>& plants,
-                                     const std::vector<SampledSetting>& at_standstill,
-                                     const std::vector<SampledSetting>& at_edges,
+RobustConstraints::RobustConstraints(std::span<const SampledSetting> plants,
+                                     std::span<const SampledSetting> at_standstill,
+                                     std::span<const SampledSetting> at_edges,
                                      const SampledLoopGoals& goals, unsigned threads)
     : plants_(plants),
       at_standstill_(at_standstill),
@@ -48,8 +49,8 @@ RobustConstraints::RobustConstraints(const std::vector<SampledSetting>& plants,
   validate(goals);
   if (plants.empty()) throw InvalidInput("sampled loops: expected at least one plant, found none");
   const Eigen::ArrayXd& frequency = plants.front().frequency();
-  for (const auto* settings : {&plants, &at_standstill, &at_edges}) {
-    for (const SampledSetting& one : *settings) {
+  for (const auto settings : {plants, at_standstill, at_edges}) {
+    for (const SampledSetting& one : settings) {
       if (one.frequency().size() != frequency.size() || (one.frequency() != frequency).any()) {
         throw InvalidInput("sampled loops: expected the same frequencies in every setting");
       }
@@ -59,10 +60,10 @@ RobustConstraints::RobustConstraints(const std::vector<SampledSetting>& plants,
 
 bool RobustConstraints::stable(const plant::StateSpace& controller) const {
   if (!(numerics::spectral_radius(controller.a) < 1.0)) return false;
-  for (const auto* settings : {&at_standstill_, &at_edges_, &plants_}) {
-    std::vector<double> radius(settings->size());
+  for (const auto settings : {at_standstill_, at_edges_, plants_}) {
+    std::vector<double> radius(settings.size());
     numerics::for_each_index(radius.size(), threads_, [&](std::size_t i) {
-      radius[i] = (*settings)[i].spectral_radius(controller);
+      radius[i] = settings[i].spectral_radius(controller);
     });
     if (!std::ranges::all_of(radius, [](double one) { return one < 1.0; })) return false;
   }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <vector>
+#include <span>
 
 #include <boresight/design/limits/sampled_setting.hpp>
 
@@ -26,14 +26,14 @@ void validate(const SampledLoopGoals& goals);
 class RobustConstraints {
  public:
   /// @throws InvalidInput as validate, without plants and for plants of different frequencies.
-  RobustConstraints(const std::vector<SampledSetting>& plants,
-                    const std::vector<SampledSetting>& at_standstill,
-                    const std::vector<SampledSetting>& at_edges, const SampledLoopGoals& goals,
+  RobustConstraints(std::span<const SampledSetting> plants,
+                    std::span<const SampledSetting> at_standstill,
+                    std::span<const SampledSetting> at_edges, const SampledLoopGoals& goals,
                     unsigned threads);
 
-  const std::vector<SampledSetting>& plants() const { return plants_; }
-  const std::vector<SampledSetting>& at_standstill() const { return at_standstill_; }
-  const std::vector<SampledSetting>& at_edges() const { return at_edges_; }
+  std::span<const SampledSetting> plants() const { return plants_; }
+  std::span<const SampledSetting> at_standstill() const { return at_standstill_; }
+  std::span<const SampledSetting> at_edges() const { return at_edges_; }
   const SampledLoopGoals& goals() const { return goals_; }
   unsigned threads() const { return threads_; }
 
@@ -49,9 +49,9 @@ class RobustConstraints {
   double largest_rms(const plant::StateSpace& controller) const;
 
  private:
-  const std::vector<SampledSetting>& plants_;
-  const std::vector<SampledSetting>& at_standstill_;
-  const std::vector<SampledSetting>& at_edges_;
+  std::span<const SampledSetting> plants_;
+  std::span<const SampledSetting> at_standstill_;
+  std::span<const SampledSetting> at_edges_;
   SampledLoopGoals goals_;
   unsigned threads_;
 };

@@ -15,33 +15,6 @@
 namespace boresight::design {
 namespace {
 
-const std::vector<std::string>& sensors() {
-  static const std::vector<std::string> names{"tachometer", "encoder", "motor_torque"};
-  return names;
-}
-
-// The controller as one that takes every sensor in their order and nothing else.
-plant::StateSpace from_sensors(const plant::StateSpace& controller) {
-  const Eigen::Index output = plant::output_index(controller, "valve_command");
-  const auto count = static_cast<Eigen::Index>(sensors().size());
-  plant::StateSpace result{controller.a,
-                           Eigen::MatrixXd::Zero(controller.a.rows(), count),
-                           controller.c.row(output),
-                           Eigen::MatrixXd::Zero(1, count),
-                           sensors(),
-                           {"valve_command"},
-                           controller.states,
-                           controller.sample_time};
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto taken = std::ranges::find(controller.inputs, sensors()[static_cast<std::size_t>(i)]);
-    if (taken == controller.inputs.end()) continue;
-    const auto column = taken - controller.inputs.begin();
-    result.b.col(i) = controller.b.col(column);
-    result.d(0, i) = controller.d(output, column);
-  }
-  return result;
-}
-
 Eigen::ArrayXXcd responses(const plant::StateSpace& system, const Eigen::ArrayXd& frequency,
                            Eigen::Index channels, bool of_inputs) {
   plant::DenseResponse dense(system);
@@ -68,6 +41,33 @@ Eigen::MatrixXd steady_covariance(const Eigen::MatrixXd& a, const Eigen::MatrixX
 
 }  // namespace
 
+const std::vector<std::string>& SampledSetting::sensors() {
+  static const std::vector<std::string> names{"tachometer", "encoder", "motor_torque"};
+  return names;
+}
+
+plant::StateSpace from_sensors(const plant::StateSpace& controller) {
+  const Eigen::Index output = plant::output_index(controller, "valve_command");
+  const auto count = static_cast<Eigen::Index>(SampledSetting::sensors().size());
+  plant::StateSpace result{controller.a,
+                           Eigen::MatrixXd::Zero(controller.a.rows(), count),
+                           controller.c.row(output),
+                           Eigen::MatrixXd::Zero(1, count),
+                           SampledSetting::sensors(),
+                           {"valve_command"},
+                           controller.states,
+                           controller.sample_time};
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto taken = std::ranges::find(controller.inputs,
+                                         SampledSetting::sensors()[static_cast<std::size_t>(i)]);
+    if (taken == controller.inputs.end()) continue;
+    const auto column = taken - controller.inputs.begin();
+    result.b.col(i) = controller.b.col(column);
+    result.d(0, i) = controller.d(output, column);
+  }
+  return result;
+}
+
 SampledSetting::SampledSetting(std::string name, const plant::AntennaPlant& plant,
                                const plant::ShapingFilter& wind, const control::SensorNoise& noise,
                                double sample_time, Eigen::ArrayXd frequency, double encoder_gain)
@@ -75,7 +75,7 @@ SampledSetting::SampledSetting(std::string name, const plant::AntennaPlant& plan
   problem_.plant = control::antenna_in_wind(plant, wind);
   problem_.plant.c.row(plant::output_index(problem_.plant, "encoder")) *= encoder_gain;
   problem_.commands = {"valve_command"};
-  problem_.measured = sensors();
+  problem_.measured = SampledSetting::sensors();
   problem_.sample_time = problem_.computation_delay = sample_time;
   problem_.disturbance_intensity = {{"wind_white_noise", 1.0}};
   const double torque_rms =
@@ -201,8 +201,8 @@ ControllerGramians SampledSetting::controller_gramians(const plant::StateSpace& 
 
 Eigen::ArrayXXcd SampledSetting::controller_response(const plant::StateSpace& controller,
                                                      const Eigen::ArrayXd& frequency) {
-  return responses(from_sensors(controller), frequency, static_cast<Eigen::Index>(sensors().size()),
-                   true);
+  return responses(from_sensors(controller), frequency,
+                   static_cast<Eigen::Index>(SampledSetting::sensors().size()), true);
 }
 
 SampledPeak SampledSetting::highest_peak(const Eigen::ArrayXXcd& controller_response) const {

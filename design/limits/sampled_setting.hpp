@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -28,6 +29,11 @@ struct SampledPeak {
   double magnitude = 0.0;
 };
 
+/// A controller as a function of tachometer, encoder and motor_torque, in this order: zeros for a
+/// sensor that it does not read. Other inputs (references) are 0 and left out.
+/// @throws InvalidInput without the output valve_command.
+plant::StateSpace from_sensors(const plant::StateSpace& controller);
+
 /// Gramians of a controller's states in the closed loop, for weighted balancing (P. M. R.
 /// Wortelboer, Frequency-weighted balanced reduction of closed-loop mechanical servo-systems,
 /// thesis, Delft 1994).
@@ -51,6 +57,9 @@ class SampledSetting {
   SampledSetting(std::string name, const plant::AntennaPlant& plant,
                  const plant::ShapingFilter& wind, const control::SensorNoise& noise,
                  double sample_time, Eigen::ArrayXd frequency, double encoder_gain = 1.0);
+
+  /// The names of tachometer, encoder and motor_torque, in this order.
+  static const std::vector<std::string>& sensors();
 
   const std::string& name() const { return name_; }
   /// For least boresight rms: cost 1 on the boresight and a negligible cost on the command.

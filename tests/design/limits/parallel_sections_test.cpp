@@ -82,6 +82,19 @@ TEST(ParallelSections, DerivativesAreThoseOfTheResponse) {
   }
 }
 
+void expect_gradients_of_conditions(const ParallelSections& sections) {
+  const Eigen::VectorXd here = sections.parameters();
+  const auto found = sections.stability(here);
+  for (Eigen::Index k = 0; k < here.size(); ++k) {
+    Eigen::VectorXd above = here, below = here;
+    above[k] += 1e-6;
+    below[k] -= 1e-6;
+    const Eigen::VectorXd slope =
+        (sections.stability(above).conditions - sections.stability(below).conditions) / 2e-6;
+    EXPECT_LT((slope - found.gradients.col(k)).cwiseAbs().maxCoeff(), 1e-6) << k;
+  }
+}
+
 TEST(ParallelSections, ConditionsAreNegativeWhereTheControllerIsStable) {
   const ParallelSections sections(controller());
   const Eigen::VectorXd here = sections.parameters();
@@ -102,16 +115,7 @@ TEST(ParallelSections, ConditionsAreNegativeWhereTheControllerIsStable) {
   }
   EXPECT_GT(stable, all / 3);
   EXPECT_LT(stable, all - 3);
-  // Their gradients.
-  const auto found = sections.stability(here);
-  for (Eigen::Index k = 0; k < here.size(); ++k) {
-    Eigen::VectorXd above = here, below = here;
-    above[k] += 1e-6;
-    below[k] -= 1e-6;
-    const Eigen::VectorXd slope =
-        (sections.stability(above).conditions - sections.stability(below).conditions) / 2e-6;
-    EXPECT_LT((slope - found.gradients.col(k)).cwiseAbs().maxCoeff(), 1e-6) << k;
-  }
+  expect_gradients_of_conditions(sections);
 }
 
 TEST(ParallelSections, ConditionsAreNegativeWhereNoPoleIsSlowerThanAllowed) {
@@ -130,24 +134,16 @@ TEST(ParallelSections, ConditionsAreNegativeWhereNoPoleIsSlowerThanAllowed) {
       const Eigen::VectorXcd poles =
           numerics::eigen_decomposition(sections.state_space(parameters).a).values;
       if (poles.cwiseAbs().maxCoeff() >= 1.0) continue;
-      const double found = ((1.0 - poles.real().array()) / 0.02).minCoeff();
-      EXPECT_EQ(found<1.1 * slowest, sections.stability(parameters).conditions.maxCoeff()> 0.0)
-          << parameter << ' ' << change;
-      slow += found < 1.1 * slowest ? 1 : 0;
+      const bool too_slow = ((1.0 - poles.real().array()) / 0.02).minCoeff() < 1.1 * slowest;
+      const bool met = sections.stability(parameters).conditions.maxCoeff() < 0.0;
+      EXPECT_EQ(met, !too_slow) << parameter << ' ' << change;
+      slow += too_slow ? 1 : 0;
       ++all;
     }
   }
   EXPECT_GT(slow, 3);
   EXPECT_LT(slow, all - 1);
-  const auto found = sections.stability(here);
-  for (Eigen::Index k = 0; k < here.size(); ++k) {
-    Eigen::VectorXd above = here, below = here;
-    above[k] += 1e-6;
-    below[k] -= 1e-6;
-    const Eigen::VectorXd slope =
-        (sections.stability(above).conditions - sections.stability(below).conditions) / 2e-6;
-    EXPECT_LT((slope - found.gradients.col(k)).cwiseAbs().maxCoeff(), 1e-6) << k;
-  }
+  expect_gradients_of_conditions(sections);
 }
 
 TEST(ParallelSections, IdlePolesChangeNothingAndAreFastEnough) {

@@ -69,7 +69,6 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
   expect_slope(found.sensitivity_peak, above.sensitivity_peak, below.sensitivity_peak);
 }
 
-// Without feedback through the plant the mean square is exactly quadratic in the controller.
 // Without a response of the plant the effort is a square of the controller: gradient and curvature
 // are all there is.
 TEST(SampledSpectrum, EffortIsItsGradientAndCurvatureWhereNothingComesBack) {
@@ -85,6 +84,7 @@ TEST(SampledSpectrum, EffortIsItsGradientAndCurvatureWhereNothingComesBack) {
   EXPECT_GT(curved, 0.01);
 }
 
+// Without feedback through the plant the mean square is exactly quadratic in the controller.
 TEST(SampledSpectrum, CurvatureIsThatOfTheMeanSquare) {
   Loop loop;
   loop.spectrum.response.setZero();

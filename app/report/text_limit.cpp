@@ -83,8 +83,8 @@ Document document_of(const design::PointingLimit& limit) {
   }
   if (limit.robustified && !limit.refined) {
     text += wrapped(
-        "No state-space controller was refined: poles are repeated, or no step meets every "
-        "constraint.",
+        "No refined state-space controller: the start has repeated poles, or the search found "
+        "none that meets every constraint.",
         "  ");
   }
   if (limit.controllers.empty()) return text;

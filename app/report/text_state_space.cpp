@@ -83,18 +83,20 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   Document text = heading("A state-space controller instead of loops");
   text += essential(wrapped(sentence(study, own), "  "));
   text += wrapped(
-      fmt::format("All numbers of the controller are searched by gradient for the least rms on the "
-                  "worst plant, within every constraint on each plant. The search starts from: {}. "
-                  "The result ran on the nonlinear antenna as the recommended loops did, in the "
-                  "same wind of {:.3g} m/s.",
-                  study.start, study.wind_speed),
+      fmt::format(
+          "A gradient search over all parameters of the controller minimises the rms on the "
+          "worst plant. It keeps the limits on control effort and on Ms at the valve command "
+          "on each plant. Start of the search: {}. The result ran on the nonlinear antenna "
+          "as the recommended loops did, in the same wind of {:.3g} m/s.",
+          study.start, study.wind_speed),
       "  ");
   text += essential(table(rows, "l"));
   text += wrapped(
-      "It also meets Ms at standstill and is stable by itself. It is not among the controllers to "
-      "recommend: it has no loops to close one by one, no constraint on the rate loop alone or on "
-      "the position loop, and no anti-windup. --mat writes it as state_space_controller, which "
-      "`boresight benchmark CASE --controller FILE --part state_space_controller` evaluates.",
+      "It also meets the limit on Ms at standstill and is stable with its loop open. It is not "
+      "among the controllers to recommend: it has no loops to close one by one, no constraint on "
+      "the rate loop alone or on the position loop, and no anti-windup. --mat writes it as "
+      "state_space_controller, which `boresight benchmark CASE --controller FILE --part "
+      "state_space_controller` evaluates.",
       "  ");
   return text;
 }

@@ -30,7 +30,7 @@ struct Arguments {
   Outputs outputs;
   std::vector<std::string> structures;
   design::MatchOptions options;
-  /// Of the ensemble's draws; apart from that of the searches, which should make no difference.
+  /// Of the ensemble's samples. The searches have a seed of their own, which should not matter.
   std::uint64_t ensemble_seed = 1;
   bool nominal = false;
   bool no_variants = false;

@@ -64,8 +64,8 @@ void fill_identification(const io::Case& antenna, const StudyOptions& options, R
   report.figures = record_figures(report.campaign->notes, traces);
 }
 
-// The recommended controller, gains fixed, on the ensemble that it was tuned on; of records on more
-// draws of the same distribution, and its stability over the wider ranges of the case.
+// The recommended controller with fixed gains on the ensemble that it was tuned on. With records
+// also on more samples of the same distribution, and its stability over the case's wider ranges.
 void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& options,
                           TuningSection& section) {
   constexpr std::size_t random_samples = 200;
@@ -74,7 +74,7 @@ void evaluate_on_ensemble(const io::DesignedAntenna& plant, const StudyOptions& 
                                  : plant.ensemble.members,
               options.threads, section);
   if (!section.ensemble) return;
-  // As montecarlo draws them.
+  // The samples of montecarlo.
   add_probabilities(
       plant.mission, plant.distribution,
       {.plants = 2000, .seed = options.seed, .retune = false, .threads = options.threads}, section);

@@ -34,7 +34,7 @@ struct Candidate : design::ProposedDesign {
 
 /// A decision with the description of its basis.
 struct DecisionSection : design::ProposalDecision {
-  std::string source;               // of the draws
+  std::string source;               // of the samples
   std::vector<std::string> inputs;  // `uncertain`
   std::vector<std::string> notes;   // what is missing, and why
 };

@@ -46,13 +46,13 @@ std::string resonance_warning(const std::optional<io::ResonanceVerdict>& verdict
   if (!verdict->bulk_modulus) return text;
   const double wanted = *verdict->bulk_modulus / verdict->stated_bulk_modulus;
   constexpr double same = 0.01;
-  if (wanted >= verdict->least_oil * (1.0 - same) && wanted <= verdict->most_oil * (1.0 + same)) {
+  if (wanted >= verdict->min_oil * (1.0 - same) && wanted <= verdict->max_oil * (1.0 + same)) {
     return text;
   }
   return text + fmt::format(
                     " The uncertainty set has {:.3g} to {:.3g} times the case's oil stiffness, and "
                     "that would be {:.3g} times: no member represents the measured antenna.",
-                    verdict->least_oil, verdict->most_oil, wanted);
+                    verdict->min_oil, verdict->max_oil, wanted);
 }
 
 std::string unread_resonance(const std::optional<io::ResonanceVerdict>& verdict) {

@@ -456,13 +456,13 @@ std::vector<CardLine> card_with_budgets(const Report& report, const BudgetDetail
 std::vector<CardLine> redesign_card(const Report& report) {
   if (!report.tuning) return {};
   // On one screen: of a controller of many gains fewer budgets are shown, or one without its name.
-  constexpr std::ptrdiff_t most_lines = 16;
+  constexpr std::ptrdiff_t max_lines = 16;
   constexpr std::array<BudgetDetail, 4> details{{{3, true}, {2, true}, {1, true}, {1, false}}};
   std::vector<CardLine> card;
   for (const auto& budgets : details) {
     card = card_with_budgets(report, budgets);
     // Behind a blank line.
-    if (std::ranges::count(to_text(document_of(card)), '\n') <= 1 + most_lines) break;
+    if (std::ranges::count(to_text(document_of(card)), '\n') <= 1 + max_lines) break;
   }
   return card;
 }

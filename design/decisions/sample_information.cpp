@@ -33,8 +33,8 @@ std::vector<double> knots_of(const std::vector<double>& sorted, std::size_t curv
   return knots;
 }
 
-// Columns 1, x and the truncated cubes that are straight beyond the outer knots; x is brought to
-// the range of the draws, so that the columns are of one size.
+// Columns 1, x and the truncated cubes that are straight beyond the outer knots; x is scaled to
+// the range of the samples, so that the columns are of one size.
 Eigen::MatrixXd spline_columns(const Eigen::ArrayXd& x, std::vector<double> knots, double low,
                                double high) {
   const auto scaled = [&](double value) { return (value - low) / (high - low); };

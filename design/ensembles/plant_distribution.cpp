@@ -60,7 +60,7 @@ std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
   return logs;
 }
 
-// Standard deviation of the logarithm of the draws' valve lags.
+// Standard deviation of the logarithm of the samples' valve lags.
 double valve_deviation(const std::vector<identification::DriveEstimate>& random_samples) {
   std::vector<double> logs;
   for (const auto& draw : random_samples) {
@@ -171,8 +171,8 @@ PlantDistribution PlantDistribution::of_records(
   const Eigen::MatrixXd centred = logs.rowwise() - mean;
   const Eigen::MatrixXd covariance = centred.transpose() * centred / static_cast<double>(kept - 1);
   PlantDistribution distribution;
-  // Inputs that the records say nothing of have rows of zeros: a diagonal of rounding's size keeps
-  // the factor defined and their draws where they are.
+  // Inputs that the records do not determine have rows of zeros. A diagonal of the size of rounding
+  // keeps the factor defined and leaves their samples unchanged.
   const Eigen::MatrixXd lifted =
       covariance + 1e-24 * Eigen::MatrixXd::Identity(plant_inputs, plant_inputs);
   distribution.factor_ = lifted.llt().matrixL();

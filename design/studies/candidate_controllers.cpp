@@ -114,7 +114,7 @@ TunedCandidate tune_candidate(const Mission& mission, const PlantEnsemble& ensem
 TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options) {
-  // Of each candidate, and of the draws that follow.
+  // Of each candidate, and of the samples that follow.
   constexpr std::size_t steps = 1000;
   TunedCandidates result;
   for (std::size_t i = 0; i < antennas.size(); ++i) {

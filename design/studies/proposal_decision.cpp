@@ -91,7 +91,7 @@ class Decision {
  private:
   bool stopped() const { return options_.interrupted && options_.interrupted(); }
 
-  // All candidates on the same draws. False if interrupted.
+  // All candidates on the same samples. False if interrupted.
   bool draw_outcomes() {
     auto outcomes = evaluate_samples(held_, distribution_, options_);
     if (!outcomes) return false;
@@ -213,7 +213,7 @@ class Decision {
   const PlantDistribution& distribution_;
   const ProposalOptions& options_;
   std::vector<FixedGainCandidate> held_;
-  Eigen::MatrixXd rms_;  // mdeg, draws x candidates
+  Eigen::MatrixXd rms_;  // mdeg, samples x candidates
   Eigen::ArrayXXd outside_;
   ProposalDecision found_;
 };

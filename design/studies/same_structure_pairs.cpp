@@ -9,7 +9,7 @@
 namespace boresight::design {
 namespace {
 
-// A controller that can be evaluated on draws; none where no such one of that structure was tuned.
+// A controller of that structure that can be evaluated on samples; none where none was tuned.
 std::optional<std::size_t> controller_of(const ProposedDesign& candidate,
                                          const std::string& structure) {
   const auto found =

@@ -120,7 +120,7 @@ InertiaIdentification identify_inertia(const DriveEvidence& evidence,
   }
 
   if (evidence.printed_load) {
-    // A printed sum is as uncertain as what it sums: it moves with the same draws.
+    // A printed sum varies with the samples of its terms, so that it is as uncertain as they are.
     const Formula parts = sum({gear_train, first_row});
     double nominal = evidence.antenna.front().reflected.value;
     for (const auto& assembly : evidence.assemblies) {

@@ -100,8 +100,8 @@ std::optional<ResonanceVerdict> resonance_verdict(const Case& antenna) {
   verdict.stated_bulk_modulus = bulk_modulus(antenna);
   verdict.bulk_modulus = bulk_modulus_for(antenna, verdict.measured);
   const auto oil = member_ranges(antenna).oil_stiffness;
-  verdict.least_oil = oil.lower;
-  verdict.most_oil = oil.upper;
+  verdict.min_oil = oil.lower;
+  verdict.max_oil = oil.upper;
   return verdict;
 }
 

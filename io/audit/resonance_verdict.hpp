@@ -22,7 +22,7 @@ struct ResonanceVerdict {
   std::optional<double> bulk_modulus = std::nullopt;
   /// Oil stiffness over the ensemble (member_ranges) on which controllers are evaluated, as factors
   /// on the case's.
-  double least_oil = 1.0, most_oil = 1.0;
+  double min_oil = 1.0, max_oil = 1.0;
   bool of_oil = false;  // of the mode with most oil, as the case says
   bool rigid = true;    // rings_as_rigid: an inertia may be computed from it
   /// The expected one, and plant::mode_of_oil.

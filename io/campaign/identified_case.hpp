@@ -10,10 +10,11 @@
 namespace boresight::io {
 
 /// The case with what its records show instead of what it states, and with standard uncertainties
-/// of the draws (none: none). Numbers that the records show have the basis "measured"; inertias and
-/// oil, which are combined estimates of records and stated numbers, always come from the estimate.
-/// All else by `parts`: leakage rate, friction curve, friction slope of the linear plant, valve
-/// frequency, frequencies of the structure, offset torque and bristles where the case has them.
+/// of the samples (none: none). Numbers that the records show have the basis "measured"; inertias
+/// and oil, which are combined estimates of records and stated numbers, always come from the
+/// estimate. All else by `parts`: leakage rate, friction curve, friction slope of the linear plant,
+/// valve frequency, frequencies of the structure, offset torque and bristles where the case has
+/// them.
 /// @throws NumericalFailure for an estimate that leaves the antenna no inertia, and for one that
 /// the records' contradiction with the case makes none (DriveEstimate::contradicted).
 Case with_identified(const Case& antenna, const identification::DriveEstimate& estimate,

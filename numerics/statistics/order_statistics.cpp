@@ -36,7 +36,7 @@ double quantile(std::span<const double> rising, double fraction) {
 std::ptrdiff_t rank_below_quantile(std::size_t count, double fraction, double probability) {
   const boost::math::binomial_distribution<double> samples_below(static_cast<double>(count),
                                                                  fraction);
-  // P(draws below <= low) <= chance < P(draws below <= high)
+  // P(samples below <= low) <= probability < P(samples below <= high)
   std::ptrdiff_t low = -1, high = static_cast<std::ptrdiff_t>(count);
   while (high - low > 1) {
     const std::ptrdiff_t middle = low + (high - low) / 2;

@@ -82,8 +82,8 @@ TEST(ResonanceVerdict, WarnsWhereNoPlantHasTheOilThatWasMeasured) {
                                .standard_uncertainty = 0.1,
                                .stated_bulk_modulus = 1.24e9,
                                .bulk_modulus = 0.361e9,
-                               .least_oil = 0.654,
-                               .most_oil = 1.346};
+                               .min_oil = 0.654,
+                               .max_oil = 1.346};
   const auto none = EndsWith(
       " The uncertainty set has 0.654 to 1.35 times the case's oil stiffness, and that would be "
       "0.291 times: no member represents the measured antenna.");
@@ -96,7 +96,7 @@ TEST(ResonanceVerdict, WarnsWhereNoPlantHasTheOilThatWasMeasured) {
   lead_with_resonance(report);
   EXPECT_THAT(report.conclusions, ElementsAre(none, "Tuned."));
   EXPECT_THAT(reservations(report), ElementsAre(none));
-  verdict.least_oil = 0.293;  // within rounding of what is wanted
+  verdict.min_oil = 0.293;  // within rounding of what is wanted
   EXPECT_EQ(resonance_warning(verdict), resonance_sentence(verdict));
   verdict.expected = 1.1;
   EXPECT_EQ(resonance_warning(verdict), "");
@@ -106,7 +106,7 @@ TEST(ResonanceVerdict, WarnsWhereNoPlantHasTheOilThatWasMeasured) {
   EXPECT_THAT(reservations(report), IsEmpty());
   const auto read = resonance_verdict(with_oil(1.229e9));
   ASSERT_TRUE(read);
-  EXPECT_EQ(read->least_oil, member_ranges(with_oil(1.229e9)).oil_stiffness.lower);
+  EXPECT_EQ(read->min_oil, member_ranges(with_oil(1.229e9)).oil_stiffness.lower);
 }
 
 TEST(ResonanceVerdict, SaysThatTheMethodsFigureIsOfARigidAntenna) {

@@ -38,7 +38,7 @@ TEST(ResonanceVerdict, ContradictsBeyondThreeStandardUncertainties) {
   EXPECT_NEAR(verdict->expected, hydraulic_frequency(antenna), 1e-12);
   EXPECT_TRUE(verdict->contradicts());
   EXPECT_NEAR(verdict->stated_bulk_modulus, 1.229e9, 1.0);
-  EXPECT_EQ(verdict->least_oil, member_ranges(antenna).oil_stiffness.lower);
+  EXPECT_EQ(verdict->min_oil, member_ranges(antenna).oil_stiffness.lower);
   const auto agreeing = resonance_verdict(with_oil(verdict->bulk_modulus.value()));
   ASSERT_TRUE(agreeing);
   EXPECT_LT(agreeing->deviation(), 0.01);

@@ -144,13 +144,44 @@ Document reversal_part(const TimeDomainSection& section) {
                    "  ", "  ");
   }
   return wrapped(
-      fmt::format(
-          "Velocity reversal at +-{:.3g} mdeg/s: peak error {} mdeg at the encoder, {} mdeg in "
-          "boresight, {:.2f} s after the reversal; {} mdeg at the encoder without friction.",
-          section.options.tracking_rate / millidegree, mdeg(reversal.encoder_error),
-          mdeg(reversal.boresight_error), reversal.time_of_largest,
-          mdeg(reversal.encoder_error_without_friction)),
+      fmt::format("Velocity reversal at +-{:.3g} mdeg/s: peak error {} mdeg in boresight ({} "
+                  "without friction feedforward), {} mdeg at the encoder {:.2f} s after the "
+                  "reversal; {} mdeg at the encoder without friction.",
+                  section.options.tracking_rate / millidegree, mdeg(reversal.boresight_error),
+                  mdeg(reversal.boresight_error_without_feedforward), mdeg(reversal.encoder_error),
+                  reversal.time_of_largest, mdeg(reversal.encoder_error_without_friction)),
       "  ", "  ");
+}
+
+// What the antenna's computer adds to the feedback, for the simulated figures to hold there.
+Document feedforward_part(const TimeDomainSection& section) {
+  const control::Feedforward& forward = section.feedforward;
+  Rows rows{{"feedforward at the motor shaft", "of", "gain"}};
+  const auto add = [&](const char* to, const char* of, double gain, const char* unit) {
+    rows.push_back({to, of, fmt::format("{:.5g}{}", gain, unit)});
+  };
+  add("rate command", "commanded rate w", forward.rate_to_rate_command, "");
+  add("rate command", "commanded acceleration a", forward.acceleration_to_rate_command, " s");
+  add("valve command", "commanded rate w", forward.rate_to_valve_command, "");
+  add("valve command", "commanded acceleration a", forward.acceleration_to_valve_command, " s");
+  add("valve command", "friction torque Tf", forward.friction_to_valve_command, " rad/(N m s)");
+  add("valve command", "rate of change of Tf", forward.friction_change_to_valve_command,
+      " rad/(N m)");
+  const plant::FrictionCurve& curve = forward.friction;
+  const std::string friction = fmt::format(
+      "Tf = {:.4g} + {:.4g} exp(-(w/{:.3g})^2) + {:.4g} (1 - exp(-w/{:.3g})) + {:.4g} w, N m and "
+      "rad/s, at the commanded rate of the next sample; opposite at negative rates, 0 at rest. It "
+      "is {:.0f} % of the antenna's friction beyond the linear plant's. The controller reads the "
+      "motor torque less Tf.",
+      curve.coulomb_torque, curve.breakaway_torque - curve.coulomb_torque, curve.stribeck_rate,
+      curve.saturating_torque, curve.saturating_rate, curve.viscous_friction,
+      100.0 * section.friction_feedforward);
+  const std::string orifice = fmt::format(
+      "The sum for the valve command is divided by sqrt(1 - T/{:.4g}), as a loaded orifice passes "
+      "less: T = {:.4g} a + {:.4g} w + Tf against the flow, at most {:g} of the supply.",
+      forward.supply_torque, forward.acceleration_to_motor_torque, forward.rate_to_motor_torque,
+      control::max_feedforward_load);
+  return "\n" + table(rows, "ll") + wrapped(friction, "  ") + wrapped(orifice, "  ");
 }
 
 Document slew_part(const TimeDomainSection& section) {
@@ -250,13 +281,14 @@ Document document_of(const TimeDomainSection& section) {
          limit_cycle_part(section) + reversal_part(section) + slew_part(section) +
          wrapped(fmt::format(
                      "The controller: sampled every {:g} s with one sample of computing, "
-                     "feedforward of rate and acceleration, shaped commands, anti-windup. Encoder "
-                     "resolution: {} mdeg. Assumed: {:g} deg/s2 of command acceleration. "
+                     "feedforward, shaped commands, anti-windup. Encoder resolution: {} mdeg. "
+                     "Assumed: {:g} deg/s2 of command acceleration, friction known to {:.0f} %. "
                      "Differences: rms with and without each influence, the others on.",
                      section.sample_time, mdeg(section.encoder_resolution),
-                     section.options.limits.acceleration / degree),
+                     section.options.limits.acceleration / degree,
+                     100.0 * (1.0 - section.friction_feedforward)),
                  "  ") +
-         candidates_part(section);
+         feedforward_part(section) + candidates_part(section);
 }
 
 std::string to_text(const TimeDomainSection& section) {

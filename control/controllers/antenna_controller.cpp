@@ -120,10 +120,28 @@ Feedforward plant_feedforward(const plant::AntennaPlant& antenna,
       opening * (2.0 * drive.valve_damping / drive.valve_corner + delay);
   if (loops != nullptr) {
     result.acceleration_to_valve_command += pressure_slope(*loops) * drive.viscous_friction;
-  } else {
-    result.rate_to_motor_torque = drive.viscous_friction;
-    result.acceleration_to_motor_torque = inertia;
   }
+  result.rate_to_motor_torque = drive.viscous_friction;
+  result.acceleration_to_motor_torque = inertia;
+  return result;
+}
+
+Feedforward with_friction(const Feedforward& feedforward, const plant::AntennaPlant& antenna,
+                          const plant::FrictionCurve& curve, double fraction) {
+  if (!(fraction >= 0.0) || !std::isfinite(fraction)) {
+    throw InvalidInput(fmt::format(
+        "with_friction: expected a fraction of the friction torque of 0 or more, found {}",
+        fraction));
+  }
+  const auto& drive = antenna.drive;
+  Feedforward result = feedforward;
+  result.friction = curve;
+  result.friction.coulomb_torque *= fraction;
+  result.friction.breakaway_torque *= fraction;
+  result.friction.saturating_torque *= fraction;
+  result.friction.viscous_friction = fraction * (curve.viscous_friction - drive.viscous_friction);
+  result.friction_to_valve_command = drive.leakage_rate / drive.oil_stiffness;
+  result.friction_change_to_valve_command = 1.0 / drive.oil_stiffness;
   return result;
 }
 
@@ -132,16 +150,20 @@ AntennaController::AntennaController(const FeedbackController& controller, doubl
     : sample_time_(sample_time),
       options_(options),
       reads_torque_(feeds_torque_back(controller)),
+      expects_torque_(std::holds_alternative<plant::StateSpace>(controller)),
       outputs_{"valve_command"} {
   const auto& forward = options.feedforward;
   if (!(options.command_limit > 0.0) ||
       !std::isfinite(forward.rate_to_rate_command + forward.acceleration_to_rate_command +
                      forward.rate_to_valve_command + forward.acceleration_to_valve_command +
-                     forward.rate_to_motor_torque + forward.acceleration_to_motor_torque)) {
+                     forward.rate_to_motor_torque + forward.acceleration_to_motor_torque +
+                     forward.friction_to_valve_command +
+                     forward.friction_change_to_valve_command) ||
+      !(forward.supply_torque > 0.0)) {
     throw InvalidInput(
-        fmt::format("antenna controller: expected a command limit above 0 and finite feedforward, "
-                    "found a limit of {} rad/s",
-                    options.command_limit));
+        fmt::format("antenna controller: expected a command limit and a supply torque above 0 and "
+                    "finite feedforward, found a limit of {} rad/s and {} N m",
+                    options.command_limit, forward.supply_torque));
   }
   inputs_ = {"tachometer", "encoder"};
   if (reads_torque_) inputs_.emplace_back("motor_torque");
@@ -181,9 +203,34 @@ void AntennaController::prevent_windup(const Controller& controller) {
   }
 }
 
+// Without friction.
 double AntennaController::expected_torque(double rate, double acceleration) const {
+  if (!expects_torque_) return 0.0;
   const auto& forward = options_.feedforward;
   return forward.rate_to_motor_torque * rate + forward.acceleration_to_motor_torque * acceleration;
+}
+
+double AntennaController::valve_feedforward(double rate, double acceleration, double friction,
+                                            double friction_rate) const {
+  const auto& forward = options_.feedforward;
+  const double flow = forward.rate_to_valve_command * rate +
+                      forward.acceleration_to_valve_command * acceleration +
+                      forward.friction_to_valve_command * friction +
+                      forward.friction_change_to_valve_command * friction_rate;
+  const double torque = forward.rate_to_motor_torque * rate +
+                        forward.acceleration_to_motor_torque * acceleration + friction;
+  const double load = std::copysign(torque, torque * flow) / forward.supply_torque;
+  return flow / std::sqrt(1.0 - std::min(load, max_feedforward_load));
+}
+
+double AntennaController::friction_torque(double rate) const {
+  constexpr double rest = 1e-9;  // rad/s
+  return std::abs(rate) < rest ? 0.0 : plant::friction_torque(options_.feedforward.friction, rate);
+}
+
+void AntennaController::restart() {
+  state_ = initial_;
+  friction_ = built_friction_ = initial_friction_;
 }
 
 void AntennaController::update(double /*time*/, const Eigen::Ref<const Eigen::VectorXd>& measured,
@@ -195,22 +242,26 @@ void AntennaController::update(double /*time*/, const Eigen::Ref<const Eigen::Ve
   const double error = measured[measured_angle] - measured[first];
   const double added =
       forward.rate_to_rate_command * rate + forward.acceleration_to_rate_command * acceleration;
-  double wanted = forward.rate_to_valve_command * rate +
-                  forward.acceleration_to_valve_command * acceleration +
-                  d_[tachometer] * measured[measured_rate] + d_[angle_error] * error +
-                  d_[rate_feedforward] * added;
+  const double friction = friction_torque(rate + acceleration * sample_time_);
+  double wanted =
+      valve_feedforward(rate, acceleration, friction, (friction - friction_) / sample_time_) +
+      d_[tachometer] * measured[measured_rate] + d_[angle_error] * error +
+      d_[rate_feedforward] * added;
   wanted += c_.dot(state_);
   next_.noalias() = a_ * state_;
   next_ += b_.col(tachometer) * measured[measured_rate] + b_.col(angle_error) * error +
            b_.col(rate_feedforward) * added;
   if (reads_torque_) {
-    const double excess = measured[measured_torque] - expected_torque(rate, acceleration);
+    const double excess =
+        measured[measured_torque] - expected_torque(rate, acceleration) - built_friction_;
     wanted += d_[torque] * excess;
     next_ += b_.col(torque) * excess;
   }
   commands[0] = std::clamp(wanted, -options_.command_limit, options_.command_limit);
   next_ -= back_calculation_ * (wanted - commands[0]);
   state_.swap(next_);
+  built_friction_ = friction_;
+  friction_ = friction;
 }
 
 double AntennaController::start_from(const SteadyMotion& motion) {
@@ -220,7 +271,11 @@ double AntennaController::start_from(const SteadyMotion& motion) {
   Eigen::VectorXd given = Eigen::VectorXd::Zero(b_.cols());
   given[tachometer] = motion.tachometer;
   given[rate_feedforward] = forward.rate_to_rate_command * motion.tachometer;
-  if (reads_torque_) given[torque] = motion.motor_torque - expected_torque(motion.tachometer, 0.0);
+  initial_friction_ = friction_torque(motion.tachometer);
+  if (reads_torque_) {
+    given[torque] =
+        motion.motor_torque - expected_torque(motion.tachometer, 0.0) - initial_friction_;
+  }
   Eigen::MatrixXd equations(states + 1, states + 1);
   equations.topLeftCorner(states, states) = Eigen::MatrixXd::Identity(states, states) - a_;
   equations.topRightCorner(states, 1) = -b_.col(angle_error);
@@ -228,11 +283,12 @@ double AntennaController::start_from(const SteadyMotion& motion) {
   equations(states, states) = d_[angle_error];
   Eigen::VectorXd right(states + 1);
   right.head(states) = b_ * given;
-  right[states] =
-      motion.valve_command - d_.dot(given) - forward.rate_to_valve_command * motion.tachometer;
+  right[states] = motion.valve_command - d_.dot(given) -
+                  valve_feedforward(motion.tachometer, 0.0, initial_friction_, 0.0);
   const Eigen::VectorXd steady =
       numerics::linear_solve(equations, right, "antenna controller: steady motion");
-  initial_ = state_ = steady.head(states);
+  initial_ = steady.head(states);
+  restart();
   return steady[states];
 }
 

@@ -9,6 +9,7 @@
 
 #include <boresight/control/controllers/controller.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
+#include <boresight/plant/antenna/friction.hpp>
 #include <boresight/plant/nonlinear/sampled_controller.hpp>
 
 namespace boresight::control {
@@ -21,6 +22,9 @@ using FeedbackController = std::variant<Controller, plant::StateSpace>;
 /// True if the controller reads the motor torque.
 bool feeds_torque_back(const FeedbackController& controller);
 
+/// Largest load, as a fraction of the supply torque, for which Feedforward opens the valve further.
+inline constexpr double max_feedforward_load = 0.9;
+
 /// Feedforward gains from the commanded motion to rate command, valve command and expected motor
 /// torque, in addition to the feedback of errors. All zero: no feedforward.
 struct Feedforward {
@@ -28,10 +32,22 @@ struct Feedforward {
   double acceleration_to_rate_command = 0.0;   // s
   double rate_to_valve_command = 0.0;          // 1
   double acceleration_to_valve_command = 0.0;  // s
-  /// The torque that the motion takes. A state-space controller receives the measured torque less
-  /// this one; the paths of a Controller receive the measured torque.
+  /// The torque that the motion takes, without the friction torque. A state-space controller
+  /// receives the measured torque less this one.
   double rate_to_motor_torque = 0.0;          // N m s/rad
   double acceleration_to_motor_torque = 0.0;  // kg m2
+  /// Friction torque that the commanded rate meets beyond rate_to_motor_torque (with_friction); 0
+  /// at rest. The valve command gets its gains times the torque and its rate of change. Every
+  /// controller receives the measured torque less the friction torque.
+  plant::FrictionCurve friction = {};
+  double friction_to_valve_command = 0.0;         // rad/s per N m
+  double friction_change_to_valve_command = 0.0;  // rad per N m
+  /// Motor torque (N m) at the whole supply pressure. At a load torque T an opening u of the valve
+  /// passes the flow u sqrt(1 - T/supply_torque), T positive if it acts against the flow (H. E.
+  /// Merritt, Hydraulic Control Systems, 1967, ch. 5). The feedforward of the valve command is
+  /// divided by that root at the torque that motion and friction take, or at
+  /// max_feedforward_load if that is less. Infinite: flow in proportion to the opening.
+  double supply_torque = std::numeric_limits<double>::infinity();
 };
 
 /// Feedforward with which a plant follows its command without feedback error, to second order of
@@ -44,11 +60,20 @@ struct Feedforward {
 ///   tachometer w - a/(its corner), the rate command at which the rate error is 0.
 /// Each is the inverse of the plant's response at low frequencies, as in M. Tomizuka, Zero phase
 /// error tracking algorithm, J. Dyn. Syst. Meas. Control 109, 1987, for slow commands. Dry friction
-/// is not included. A state-space controller gets no pressure path's output, but the torque T as
-/// that which the motion takes.
+/// is not included: with_friction. A state-space controller gets no pressure path's output, but the
+/// torque T as that which the motion takes.
 /// @throws InvalidInput as control::validate, and for a delay that is negative or not finite.
 Feedforward plant_feedforward(const plant::AntennaPlant& plant,
                               const FeedbackController& controller, double delay);
+
+/// Adds the friction torque of the commanded rate: `fraction` (0 or more) of what the curve exceeds
+/// the plant's viscous friction by. Its valve command is that of a torque in plant_feedforward,
+/// xv = (T' + lambda T)/K. It depends on the command alone, so that it changes no loop's stability.
+/// Source: B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools
+/// and compensation methods for the control of machines with friction, Automatica 30, 1994, sec. 6.
+/// @throws InvalidInput for a fraction that is negative or not finite.
+Feedforward with_friction(const Feedforward& feedforward, const plant::AntennaPlant& plant,
+                          const plant::FrictionCurve& curve, double fraction);
 
 /// The steady motion at which a controller takes over.
 struct SteadyMotion {
@@ -72,6 +97,9 @@ struct AntennaControllerOptions {
 /// The output is valve_command. The computation time is part of the simulation
 /// (SimulationPlan::computation_delay).
 ///
+/// The friction torque fed forward is that of the commanded rate at the next sample, when the valve
+/// command acts. Commanded rates below 1e-9 rad/s count as rest.
+///
 /// Anti-windup by back calculation (K. J. Astrom, T. Hagglund, PID Controllers, 1995, ch. 3.5) acts
 /// on the angle. The command's excess over the limit is divided by the product of the proportional
 /// gains of rate and position path. The quotient is subtracted from the reference of the
@@ -94,7 +122,7 @@ class AntennaController final : public plant::SampledController {
   double sample_time() const override { return sample_time_; }
   const std::vector<std::string>& inputs() const override { return inputs_; }
   const std::vector<std::string>& outputs() const override { return outputs_; }
-  void restart() override { state_ = initial_; }
+  void restart() override;
   void update(double time, const Eigen::Ref<const Eigen::VectorXd>& measured,
               Eigen::Ref<Eigen::VectorXd> commands) override;
 
@@ -112,9 +140,13 @@ class AntennaController final : public plant::SampledController {
   double sample_time_;
   AntennaControllerOptions options_;
   double expected_torque(double rate, double acceleration) const;
+  double friction_torque(double rate) const;
+  double valve_feedforward(double rate, double acceleration, double friction,
+                           double friction_rate) const;
   void prevent_windup(const Controller& controller);
 
   bool reads_torque_ = false;
+  bool expects_torque_ = false;  // that of the motion: a state space
   std::vector<std::string> inputs_, outputs_;
   // Inputs: tachometer, encoder less reference, rate command's feedforward, torque.
   Eigen::MatrixXd a_, b_;
@@ -122,6 +154,9 @@ class AntennaController final : public plant::SampledController {
   Eigen::VectorXd back_calculation_;
   double back_calculation_fraction_ = 0.0;
   Eigen::VectorXd initial_, state_, next_;
+  // Friction torque fed forward: of the steady motion, of the command computed last and of the one
+  // before, which acted on the torque that is measured.
+  double initial_friction_ = 0.0, friction_ = 0.0, built_friction_ = 0.0;
 };
 
 }  // namespace boresight::control

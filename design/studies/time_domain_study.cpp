@@ -51,6 +51,8 @@ SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
                        const control::FeedbackController& controller, TimeDomainStudy& section) {
   auto loop = loop_of(mission, problem, controller, section.encoder_resolution);
   section.sample_time = loop.sample_time;
+  section.feedforward = feedforward_of(loop);
+  section.friction_feedforward = loop.friction_feedforward;
   section.result = verify_in_time(problem, loop, section.options);
   const auto& slew = section.result.slew;
   const double asked = section.options.limits.rate;

@@ -37,6 +37,9 @@ struct TimeDomainStudy {
   double sample_time = 0.0;  // s, of the controller
   /// Encoder steps at the sky (rad) whose rounding error equals the encoder noise.
   double encoder_resolution = 0.0;
+  /// Of the commanded motion (feedforward_of), and the fraction of the friction torque in it.
+  control::Feedforward feedforward;
+  double friction_feedforward = 0.0;
   NonlinearVerificationOptions options;
   NonlinearVerification result;
   /// The rms over several records of wind, one of which is in `result`.

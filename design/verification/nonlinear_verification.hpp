@@ -139,6 +139,8 @@ struct ReversalResult {
   /// The same without friction: the error that a velocity reversal excites in a linear loop. NaN if
   /// that run did not complete.
   double encoder_error_without_friction = 0.0;
+  /// Boresight error without friction feedforward; NaN if that run did not complete.
+  double boresight_error_without_feedforward = 0.0;
   double time_of_largest = 0.0;  // s after the reversal, of the encoder error
   /// Errors from a reversal on, with further reversals after each `leg`, with and without friction;
   /// the boresight error about its mean. The values above are the maxima of these traces.

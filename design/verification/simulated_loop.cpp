@@ -122,6 +122,11 @@ void check(const SimulatedLoop& loop, const ReferenceTrajectory& course) {
   }
 }
 
+// Noise besides the rounding to steps of `resolution`, which is part of the noise of that rms.
+double beyond_rounding(double rms, double resolution) {
+  return std::sqrt(std::max(0.0, rms * rms - resolution * resolution / 12.0));
+}
+
 // Encoder, tachometer and torque as the controller samples them: the densities of the linear
 // design up to half the sampling rate.
 std::vector<plant::Sensor> sensors(const SimulatedLoop& loop, bool reads_torque, double sample_time,
@@ -133,6 +138,7 @@ std::vector<plant::Sensor> sensors(const SimulatedLoop& loop, bool reads_torque,
   if (quantised) {
     result[0].resolution = loop.tachometer_resolution;
     result[1].resolution = loop.encoder_resolution;
+    for (auto& sensor : result) sensor.noise = beyond_rounding(sensor.noise, sensor.resolution);
   }
   if (reads_torque) {
     result.emplace_back();
@@ -207,6 +213,15 @@ SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
   return loop;
 }
 
+control::Feedforward feedforward_of(const SimulatedLoop& loop) {
+  if (!loop.feedforward) return {};
+  control::Feedforward forward = control::with_friction(
+      control::plant_feedforward(loop.linear, loop.controller, 1.5 * loop.sample_time), loop.linear,
+      loop.antenna.friction.curve, loop.friction_feedforward);
+  forward.supply_torque = loop.antenna.oil.supply_torque - loop.antenna.oil.return_torque;
+  return forward;
+}
+
 bool has(const SimulatedLoop& loop, Influence influence) {
   switch (influence) {
     case Influence::quantisation:
@@ -268,9 +283,10 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
   control::AntennaControllerOptions controller_options;
   controller_options.anti_windup = loop.anti_windup;
   if (limited) controller_options.command_limit = loop.antenna.valve.stroke_limit;
-  if (loop.feedforward) {
-    controller_options.feedforward =
-        control::plant_feedforward(loop.linear, loop.controller, 1.5 * loop.sample_time);
+  controller_options.feedforward = feedforward_of(loop);
+  if (is_off(options, Influence::friction)) controller_options.feedforward.friction = {};
+  if (straight) {
+    controller_options.feedforward.supply_torque = std::numeric_limits<double>::infinity();
   }
   control::AntennaController controller(loop.controller, loop.sample_time, controller_options);
   plant::FeedbackSystem system = plant::to_feedback_system(antenna);

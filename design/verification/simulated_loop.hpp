@@ -30,7 +30,10 @@ struct SimulatedLoop {
   control::SensorNoise noise;          // densities, as in the linear design
   double encoder_resolution = 0.0;     // rad of motor, step of the converter; 0: none
   double tachometer_resolution = 0.0;  // rad/s
-  bool feedforward = true;             // control::plant_feedforward
+  bool feedforward = true;             // feedforward_of
+  /// Fraction of the antenna's friction torque that is fed forward. The rest is its mismatch:
+  /// friction changes with the oil's temperature and with wear.
+  double friction_feedforward = 0.8;
   bool anti_windup = true;
 };
 
@@ -40,6 +43,11 @@ struct SimulatedLoop {
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
                                   const control::FeedbackController& controller);
+
+/// The feedforward of run_loop: control::plant_feedforward, with_friction, and the supply's torque.
+/// Runs without friction have no friction torque in it, runs without orifices no supply torque. All
+/// zero if `feedforward` is false. @throws InvalidInput as its parts.
+control::Feedforward feedforward_of(const SimulatedLoop& loop);
 
 /// Effects that the linear design neglects; each can be switched off separately:
 ///   friction       the curve and its bristles; off: the linear plant's viscous friction

@@ -108,9 +108,53 @@ void describe_reversal(Visitor& v, const std::optional<design::ReversalResult>& 
                               "Largest after a reversal, about the mean.", positive);
                      v.number("encoder_error_without_friction", one.encoder_error_without_friction,
                               unit::millidegree, "What a loop without friction has too.", positive);
+                     v.number("boresight_error_without_feedforward",
+                              one.boresight_error_without_feedforward, unit::millidegree,
+                              "The same of the boresight without friction feedforward.", positive);
                      v.number("time_of_largest", one.time_of_largest, unit::second,
                               "From the reversal to the largest error of the encoder.", positive);
                    });
+}
+
+void describe_feedforward(Visitor& v, const control::Feedforward& forward, double fraction) {
+  constexpr NumberForm finite{.finite = true};
+  v.number("rate_to_rate_command", forward.rate_to_rate_command, unit::ratio,
+           "Times the commanded rate.", finite);
+  v.number("acceleration_to_rate_command", forward.acceleration_to_rate_command, unit::second,
+           "Times the commanded acceleration.", finite);
+  v.number("rate_to_valve_command", forward.rate_to_valve_command, unit::ratio,
+           "Times the commanded rate.", finite);
+  v.number("acceleration_to_valve_command", forward.acceleration_to_valve_command, unit::second,
+           "Times the commanded acceleration.", finite);
+  v.number("friction_to_valve_command", forward.friction_to_valve_command,
+           {.suffix = "rad_per_N_m_s"}, "Times the friction torque.", finite);
+  v.number("friction_change_to_valve_command", forward.friction_change_to_valve_command,
+           {.suffix = "rad_per_N_m"}, "Times the friction torque's rate of change.", finite);
+  v.number("rate_to_motor_torque", forward.rate_to_motor_torque, {.suffix = "N_m_s_per_rad"},
+           "Times the commanded rate: torque of the motion.", finite);
+  v.number("acceleration_to_motor_torque", forward.acceleration_to_motor_torque,
+           {.suffix = "kg_m2"}, "Times the commanded acceleration: torque of the motion.", finite);
+  v.number("supply_torque", forward.supply_torque, unit::newton_metre,
+           "The valve command's feedforward is divided by sqrt(1 - T/supply_torque), T the torque "
+           "of motion and friction against the flow, at most 0.9 of this.",
+           positive);
+  v.number("friction_fraction", fraction, unit::ratio,
+           "Of the simulated friction torque; the rest is its mismatch.", known);
+  v.group(
+      "friction_torque",
+      "Friction torque at the commanded rate of the next sample, 0 at rest; that fraction of "
+      "the friction curve beyond the linear plant's viscous friction. It is subtracted from "
+      "the measured torque.",
+      [&] {
+        const plant::FrictionCurve& curve = forward.friction;
+        v.number("coulomb", curve.coulomb_torque, unit::newton_metre, "Tc.", finite);
+        v.number("breakaway", curve.breakaway_torque, unit::newton_metre, "Ts.", finite);
+        v.number("stribeck_rate", curve.stribeck_rate, unit::radian_per_second, "ws.", finite);
+        v.number("saturating", curve.saturating_torque, unit::newton_metre, "Th.", finite);
+        v.number("saturating_rate", curve.saturating_rate, unit::radian_per_second, "wh.", finite);
+        v.number("viscous", curve.viscous_friction, {.suffix = "N_m_s_per_rad"},
+                 "Bv: Tf = Tc + (Ts - Tc) exp(-(w/ws)^2) + Th (1 - exp(-w/wh)) + Bv w.", finite);
+      });
 }
 
 void describe_slew(Visitor& v, const std::optional<design::SlewResult>& slew,
@@ -154,6 +198,9 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
   v.number("sample_time", study.sample_time, unit::second, "Of the controller.", known);
   v.number("encoder_resolution", study.encoder_resolution, unit::millidegree,
            "Steps of the encoder: those whose rounding error is its noise.", known);
+  v.group("feedforward",
+          "From the commanded motion to the controller's commands, at the motor shaft.",
+          [&] { describe_feedforward(v, study.feedforward, study.friction_feedforward); });
   v.group("wind",
           "In wind, against the linear prediction: boresight_rms is the sum of predicted_rms, "
           "realisation_error, sampling, all differences and interaction.",

@@ -21,6 +21,7 @@ namespace boresight::app {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -33,6 +34,22 @@ TimeDomainSection section() {
   section.wind_speed = 10.0;
   section.sample_time = 0.02;
   section.encoder_resolution = 0.3464 * mdeg;
+  section.feedforward = {.rate_to_rate_command = 1.0,
+                         .acceleration_to_rate_command = -0.008,
+                         .rate_to_valve_command = 1.02,
+                         .acceleration_to_valve_command = 0.116,
+                         .rate_to_motor_torque = 0.9,
+                         .acceleration_to_motor_torque = 1.817,
+                         .friction = {.coulomb_torque = 8.0,
+                                      .breakaway_torque = 13.0,
+                                      .stribeck_rate = 0.15,
+                                      .saturating_torque = 50.0,
+                                      .saturating_rate = 1.5,
+                                      .viscous_friction = 0.94},
+                         .friction_to_valve_command = 0.0232,
+                         .friction_change_to_valve_command = 0.019,
+                         .supply_torque = 306.0};
+  section.friction_feedforward = 0.8;
   section.options.tracking_rate = 4.17 * mdeg;
   section.options.limits = {0.25 * degree, 0.2 * degree};
   section.options.settled_error = section.options.tightest_budget = 0.527 * mdeg;
@@ -63,6 +80,7 @@ TimeDomainSection section() {
   reversal.encoder_error = 4.98 * mdeg;
   reversal.boresight_error = 5.04 * mdeg;
   reversal.encoder_error_without_friction = 1.5 * mdeg;
+  reversal.boresight_error_without_feedforward = 9.03 * mdeg;
   reversal.time_of_largest = 1.34;
   section.result.reversal = reversal;
   design::SlewResult slew;
@@ -90,7 +108,14 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
       flat,
       HasSubstr(
           "no lasting limit cycle above the encoder's resolution in 3 runs (+-0.0070 mdeg left)"));
-  EXPECT_THAT(text, HasSubstr("peak error 4.9800 mdeg"));
+  EXPECT_THAT(flat, HasSubstr("peak error 5.0400 mdeg in boresight (9.0300 without friction "
+                              "feedforward), 4.9800 mdeg at the encoder 1.34 s after"));
+  EXPECT_THAT(text, ContainsRegex("valve command +commanded acceleration a +0[.]116 s"));
+  EXPECT_THAT(text, ContainsRegex("valve command +rate of change of Tf +0[.]019 rad/.N m."));
+  EXPECT_THAT(flat, HasSubstr("Tf = 8 + 5 exp(-(w/0.15)^2) + 50 (1 - exp(-w/1.5)) + 0.94 w, N m"));
+  EXPECT_THAT(flat, HasSubstr("It is 80 % of the antenna's friction"));
+  EXPECT_THAT(flat, HasSubstr("sqrt(1 - T/306), as a loaded orifice passes less: T = 1.817 a + "
+                              "0.9 w + Tf against the flow, at most 0.9 of the supply."));
   EXPECT_THAT(flat, HasSubstr("drive limit; specified 0.25 deg/s and 0.2 deg/s2"));
   EXPECT_THAT(flat, HasSubstr("24.16 s after the end of the command"));
 }

@@ -31,6 +31,15 @@ Controller full_controller() {
           {0.3, 0.5, 4.0, 20.0, 0.02, 3.0, 5.0, 0.1, 1e-3, 2.0}};
 }
 
+plant::FrictionCurve friction_curve() {
+  return {.coulomb_torque = 10.0,
+          .breakaway_torque = 17.0,
+          .stribeck_rate = 0.2,
+          .saturating_torque = 60.0,
+          .saturating_rate = 1.5,
+          .viscous_friction = 2.0};
+}
+
 VectorXd vector(std::initializer_list<double> values) {
   VectorXd result(static_cast<Index>(values.size()));
   std::copy(values.begin(), values.end(), result.data());
@@ -190,13 +199,21 @@ TEST(AntennaController, RefusesWhatItCannotDo) {
   };
   EXPECT_THAT(
       message([] { AntennaController(pi_controller(), sample_time, {.command_limit = 0.0}); }),
-      HasSubstr("command limit above 0 and finite feedforward, found a limit of 0"));
+      HasSubstr("a command limit and a supply torque above 0 and finite feedforward, found a "
+                "limit of 0 rad/s"));
   EXPECT_THAT(message([] {
                 AntennaController(
                     pi_controller(), sample_time,
                     {.feedforward = {std::numeric_limits<double>::infinity(), 0.0, 0.0, 0.0}});
               }),
               HasSubstr("finite feedforward"));
+  EXPECT_THAT(message([] {
+                AntennaController(pi_controller(), sample_time,
+                                  {.feedforward = {.supply_torque = 0.0}});
+              }),
+              HasSubstr("supply torque above 0"));
+  EXPECT_THAT(message([] { with_friction({}, reference::antenna(), friction_curve(), -0.5); }),
+              HasSubstr("a fraction of the friction torque of 0 or more, found -0.5"));
   EXPECT_THAT(message([] { AntennaController(pi_controller(), 0.0); }),
               HasSubstr("sample time above 0"));
   EXPECT_THAT(message([] { plant_feedforward(reference::antenna(), pi_controller(), -1.0); }),
@@ -248,14 +265,106 @@ TEST(AntennaController, AStateSpaceSeesTheTorqueBeyondThatOfItsMotion) {
   EXPECT_NEAR(found[0], expected[0], 1e-12 * std::abs(expected[0]));
 }
 
-TEST(PlantFeedforward, GivesAStateSpaceTheTorqueOfTheMotion) {
+TEST(PlantFeedforward, HasTheTorqueOfTheMotion) {
   const auto plant = reference::antenna();
-  const auto loops = plant_feedforward(plant, pi_controller(), 0.03);
-  const auto states = plant_feedforward(plant, as_state_space(leaky_controller()), 0.03);
-  EXPECT_EQ(loops.acceleration_to_motor_torque, 0.0);
-  EXPECT_EQ(states.acceleration_to_motor_torque, plant::reflected_inertia(plant));
-  EXPECT_EQ(states.rate_to_motor_torque, plant.drive.viscous_friction);
-  EXPECT_EQ(states.acceleration_to_valve_command, loops.acceleration_to_valve_command);
+  for (const FeedbackController& controller :
+       {FeedbackController(pi_controller()),
+        FeedbackController(as_state_space(leaky_controller()))}) {
+    const auto forward = plant_feedforward(plant, controller, 0.03);
+    EXPECT_EQ(forward.acceleration_to_motor_torque, plant::reflected_inertia(plant));
+    EXPECT_EQ(forward.rate_to_motor_torque, plant.drive.viscous_friction);
+  }
+}
+
+// A torque compresses the oil by T/K of motor angle and leaks by lambda T/K per second, so that the
+// sum of the valve commands over a reversal is known whatever the rates between.
+TEST(FrictionFeedforward, OpensTheValveForTheOilThatTheTorqueTakes) {
+  const auto plant = reference::antenna();
+  const double fraction = 0.75;
+  AntennaControllerOptions options;
+  options.feedforward = with_friction({}, plant, friction_curve(), fraction);
+  AntennaController controller(pi_controller(), sample_time, options);
+  const auto torque = [&](double rate) {
+    return fraction *
+           (plant::friction_torque(friction_curve(), rate) - plant.drive.viscous_friction * rate);
+  };
+  const double acceleration = 8.0;  // rad/s2
+  double sum = 0.0, leaked = 0.0;
+  VectorXd command(1);
+  // From -2 to 2 rad/s, with one sample at rest between.
+  for (int k = -13; k <= 12; ++k) {
+    const double rate = std::max(-2.0, acceleration * sample_time * k);
+    const double next = std::max(-2.0, acceleration * sample_time * (k + 1));
+    controller.update(0.0, vector({0.0, 0.0, 0.0, rate, (next - rate) / sample_time}), command);
+    sum += command[0] * sample_time;
+    if (k + 1 != 0) leaked += torque(next) * sample_time;
+  }
+  const double last = torque(acceleration * sample_time * 13);
+  EXPECT_GT(last, 30.0);
+  EXPECT_NEAR(sum, (last + plant.drive.leakage_rate * leaked) / plant.drive.oil_stiffness, 1e-12);
+  controller.restart();
+  controller.update(0.0, vector({0.0, 0.0, 0.0, 0.0, 0.0}), command);
+  EXPECT_EQ(command[0], 0.0);
+}
+
+// The sensor sees the torque one sample after the command that built it up.
+TEST(FrictionFeedforward, IsTakenOffTheMeasuredTorque) {
+  const auto plant = reference::antenna();
+  AntennaControllerOptions options;
+  options.feedforward = with_friction({}, plant, friction_curve(), 1.0);
+  AntennaController with(full_controller(), sample_time, options);
+  AntennaController without(full_controller(), sample_time);
+  const double torque =
+      plant::friction_torque(friction_curve(), 3.0) - 3.0 * plant.drive.viscous_friction;
+  const double K = plant.drive.oil_stiffness;
+  VectorXd found(1), expected(1);
+  for (int k = 0; k < 6; ++k) {
+    with.update(0.0, vector({0.0, 0.0, k < 2 ? 0.0 : torque, 0.0, 3.0, 0.0}), found);
+    without.update(0.0, vector({0.0, 0.0, 0.0, 0.0, 0.0, 0.0}), expected);
+    const double built_up = k == 0 ? torque / sample_time : 0.0;
+    EXPECT_NEAR(found[0], (plant.drive.leakage_rate * torque + built_up) / K, 1e-12) << k;
+    EXPECT_EQ(expected[0], 0.0);
+  }
+}
+
+TEST(AntennaController, OpensTheValveFurtherUnderLoad) {
+  AntennaControllerOptions options;
+  options.feedforward.rate_to_valve_command = 1.0;
+  options.feedforward.rate_to_motor_torque = 2.0;
+  options.feedforward.acceleration_to_motor_torque = 1.5;
+  options.feedforward.supply_torque = 300.0;
+  AntennaController controller(pi_controller(), sample_time, options);
+  VectorXd command(1);
+  const auto at = [&](double rate, double acceleration) {
+    controller.restart();
+    controller.update(0.0, vector({0.0, 0.0, 0.0, rate, acceleration}), command);
+    return command[0];
+  };
+  EXPECT_NEAR(at(40.0, 30.0), 40.0 / std::sqrt(1.0 - 125.0 / 300.0), 1e-12);
+  EXPECT_NEAR(at(-40.0, -30.0), -at(40.0, 30.0), 1e-12);
+  // Braking: the load drives the flow.
+  EXPECT_NEAR(at(40.0, -80.0), 40.0 / std::sqrt(1.0 + 40.0 / 300.0), 1e-12);
+  EXPECT_NEAR(at(140.0, 50.0), 140.0 / std::sqrt(0.1), 1e-10);
+  EXPECT_EQ(at(0.0, 0.0), 0.0);
+}
+
+TEST(AntennaController, TakesOverASteadyMotionWithItsFeedforward) {
+  const auto plant = reference::antenna();
+  AntennaControllerOptions options;
+  for (const FeedbackController& one : {FeedbackController(full_controller()),
+                                        FeedbackController(as_state_space(leaky_controller()))}) {
+    options.feedforward =
+        with_friction(plant_feedforward(plant, one, 0.03), plant, friction_curve(), 0.8);
+    options.feedforward.supply_torque = 300.0;
+    AntennaController controller(one, sample_time, options);
+    const SteadyMotion motion{3.4, 3.0, 80.0};
+    const double lead = controller.start_from(motion);
+    VectorXd command(1);
+    for (int k = 0; k < 20; ++k) {
+      controller.update(0.0, vector({3.0, 1.0 + lead, 80.0, 1.0, 3.0, 0.0}), command);
+      ASSERT_NEAR(command[0], 3.4, 1e-8) << k;
+    }
+  }
 }
 
 TEST(AntennaController, RefusesAStateSpaceThatItCannotRun) {

@@ -137,7 +137,9 @@ TEST(NonlinearVerification, EveryDifferenceFromThePredictionHasAName) {
   EXPECT_TRUE(result.limit_cycles[0].limit_cycle);
   EXPECT_FALSE(result.limit_cycles[1].limit_cycle);
   ASSERT_TRUE(result.reversal);
-  EXPECT_GT(result.reversal->encoder_error, 2.0 * result.reversal->encoder_error_without_friction);
+  EXPECT_LT(result.reversal->encoder_error, 2.0 * result.reversal->encoder_error_without_friction);
+  EXPECT_GT(result.reversal->boresight_error_without_feedforward,
+            1.5 * result.reversal->boresight_error);
   ASSERT_TRUE(result.slew);
   EXPECT_FALSE(result.slew->achievable_limits);
   EXPECT_TRUE(result.slew->settling_time.has_value());

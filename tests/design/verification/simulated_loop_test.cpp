@@ -9,6 +9,7 @@
 #include <boresight/design/verification/simulated_loop.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
+#include <boresight/plant/nonlinear/operating_point.hpp>
 #include <boresight/plant/wind/wind_time_series.hpp>
 
 namespace boresight::design {
@@ -197,6 +198,67 @@ TEST(SimulatedLoop, FeedforwardFollowsAnAcceleratingCommandWithASmallPartOfTheEr
   EXPECT_GT(without * loop.gear_ratio, 0.5) << "rad of motor: nothing to take away";
 }
 
+// A slow triangle with friction.
+TEST(SimulatedLoop, FrictionFeedforwardReducesTheErrorOfAReversal) {
+  auto loop = reference_loop();
+  const double rate = 2.0, leg = 20.0;
+  const auto course = shaped_course({100.0, 50.0}, loop.sample_time, 4000, 1, [&](double t) {
+    const double phase = std::fmod(t, 2.0 * leg);
+    return phase < leg ? control::CommandSample{rate * phase, rate, 0.0}
+                       : control::CommandSample{rate * (2.0 * leg - phase), -rate, 0.0};
+  });
+  const auto largest = [&](double fraction, std::vector<Influence> without) {
+    loop.friction_feedforward = fraction;
+    return run_loop(loop, course, {.without = std::move(without), .noise = false})
+        .encoder_error.tail(3000)
+        .cwiseAbs()
+        .maxCoeff();
+  };
+  const double without = largest(0.0, {});
+  EXPECT_LT(largest(0.8, {}), 0.6 * without);
+  EXPECT_GT(largest(0.4, {}), largest(0.8, {}));
+  // Without friction there is none to feed forward.
+  EXPECT_EQ(largest(0.8, {Influence::friction}), largest(0.0, {Influence::friction}));
+}
+
+// The command that holds a steady motion, by Newton's method on the nonlinear antenna, and the one
+// fed forward. At the highest rate the load leaves a third of the supply for the flow.
+TEST(SimulatedLoop, FeedforwardIsTheCommandOfASteadyMotionUnderLoad) {
+  auto loop = reference_loop();
+  loop.friction_feedforward = 1.0;
+  loop.antenna.offset = {};
+  loop.antenna.oil.null_leakage = 0.0;
+  control::AntennaController controller(loop.controller, loop.sample_time,
+                                        {.feedforward = feedforward_of(loop)});
+  for (const double rate : {2.0, 20.0, 50.0, -50.0}) {
+    VectorXd measured(5), command(1);
+    measured << rate, 0.0, 0.0, rate, 0.0;
+    controller.restart();
+    controller.update(0.0, measured, command);  // compresses the oil by the friction torque
+    controller.update(0.0, measured, command);
+    const double held = plant::trim(loop.antenna, {rate, 0.0, VectorXd::Zero(1)}).input[0];
+    EXPECT_NEAR(command[0], held, 0.05 * std::abs(held)) << rate;
+    if (std::abs(rate) > 30.0) {
+      EXPECT_GT(std::abs(held), 1.3 * std::abs(rate));
+    }
+  }
+}
+
+// Rounding to steps is the encoder's noise: nothing is added to it.
+TEST(SimulatedLoop, CountsTheEncodersNoiseOnce) {
+  auto loop = reference_loop();
+  loop.noise = {1e-3, 0.0, 25.0, 0.0};
+  const auto course = windy_course(loop, 10.0, 2.0, 1.0);
+  const auto error = [&](double resolution, bool noise) -> VectorXd {
+    loop.encoder_resolution = resolution;
+    return run_loop(loop, course, {.noise = noise}).encoder_error;
+  };
+  const double whole = std::sqrt(12.0) * loop.noise.encoder_rms * (1.0 + 1e-12);
+  EXPECT_EQ(error(whole, true), error(whole, false));
+  EXPECT_NE(error(0.9 * whole, true), error(0.9 * whole, false));
+  EXPECT_NE(error(0.0, true), error(0.0, false));
+}
+
 TEST(SimulatedLoop, AntiWindupBoundsTheOvershootAfterSaturation) {
   auto loop = reference_loop();
   loop.feedforward = false;
@@ -235,8 +297,10 @@ TEST(SimulatedLoop, StartsInTheMotionItIsToHold) {
     EXPECT_LT(moved.cwiseAbs().maxCoeff() * loop.gear_ratio, 3.0 * 4.0 * loop.sample_time)
         << controller.structure.name();
     EXPECT_LT(std::abs(moved.tail(1)[0]), 0.02 * mdeg) << controller.structure.name();
-    // Compliance compensation holds the encoder ahead by what the torque bends.
-    const double torque = plant::column(run.result, "motor_torque")[0];
+    // Compliance compensation holds the encoder ahead by what the torque bends that friction
+    // leaves.
+    const double torque = plant::column(run.result, "motor_torque")[0] -
+                          plant::friction_torque(feedforward_of(loop).friction, 2.0);
     EXPECT_NEAR(run.encoder_error[0] * loop.gear_ratio,
                 controller.structure == bending_law.structure ? 1e-3 * torque : 0.0, 1e-9);
   }

@@ -48,10 +48,10 @@ std::string sentence(const design::StateSpaceStudy& study,
   std::string text(lead_of(verdict(study)));
   if (!study.change) return text;
   return text + fmt::format(
-                    "with the limit cycle in quadrature it has {:.3f} mdeg rms, {} {:.3f} ({}, 95 "
-                    "% {} to {}).",
-                    compared_rms(study.simulated) / millidegree, loops.controller,
-                    compared_rms(loops) / millidegree, signed_percent(study.change->value),
+                    "its simulated rms is {:.3f} mdeg, against {:.3f} of {} ({}, 95 % {} to {}), "
+                    "limit cycles included.",
+                    compared_rms(study.simulated) / millidegree, compared_rms(loops) / millidegree,
+                    loops.controller, signed_percent(study.change->value),
                     signed_percent(study.change->lower), signed_percent(study.change->upper));
 }
 
@@ -106,8 +106,7 @@ std::string state_space_advantage(const design::StateSpaceStudy& study,
   if (verdict(study) != design::StateSpaceVerdict::better) return "";
   return fmt::format(
       "A state-space controller of the same sensors ({}) would be better, but cannot be "
-      "commissioned loop by loop: {:.3f} mdeg rms with the limit cycle in quadrature, {} (95 % {} "
-      "to {}) beside {}.",
+      "commissioned loop by loop: {:.3f} mdeg rms simulated, {} (95 % {} to {}) beside {}.",
       study.simulated.controller, compared_rms(study.simulated) / millidegree,
       signed_percent(study.change->value), signed_percent(study.change->lower),
       signed_percent(study.change->upper), loops.controller);

@@ -31,6 +31,9 @@ constexpr double slow_spacing = 1.3, slow_decades = 3.0;
 constexpr double first_margin = 4e-3, tolerance = 1e-3;
 // Of the margin: what a missed peak may add, and what a step that counts leaves.
 constexpr double max_margins = 5.0, margin_fall = 0.8;
+// A missed peak raises the margin by more than it exceeds: by as much, each next step would miss it
+// again by less and less.
+constexpr double margin_growth = 1.5, min_growth = 0.2 * first_margin;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5;
 // An rms at standstill may be that much of the start's when the largest over the plants is as
 // large.
@@ -120,8 +123,9 @@ class Refinement {
       if (beyond > 0.0) {
         // A peak between the points: keep more in hand. Else the step was too long.
         if (beyond < max_margins * margin_) {
-          margin_ += beyond;
-          best += slack_cost * beyond;  // what the last step costs with that, at most
+          const double more = std::max(margin_growth * beyond, min_growth);
+          margin_ += more;
+          best += slack_cost * more;  // what the last step costs with that, at most
         } else {
           radius *= 0.5;
         }

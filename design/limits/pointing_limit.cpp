@@ -58,7 +58,7 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 constexpr std::array<double, 4> slopes_at_edges{3.0, 10.0, 30.0, 100.0};
 constexpr double gain_at_half_a_step = 4.0 / std::numbers::pi;
 // No pole of a refined controller is slower: a slew would leave an error for minutes.
-constexpr double slowest_pole = 0.15;
+constexpr double slowest_pole = 0.1;
 constexpr int steps_from_loops = 40;
 
 class Study {

@@ -63,9 +63,10 @@ TEST(TextStateSpace, LeadsWithItsVerdict) {
   const auto verdict = [](const design::StateSpaceStudy& study) {
     return on_one_line(to_text(document_of(study, loops())));
   };
-  EXPECT_THAT(verdict(study()), HasSubstr("Better: with the limit cycle in quadrature it has 0.204 "
-                                          "mdeg rms, FULL+L+C, robust 0.310 (-35.0 %, 95 % -40.0 % "
-                                          "to -30.0 %)."));
+  EXPECT_THAT(verdict(study()),
+              HasSubstr("Better: its simulated rms is 0.204 mdeg, against 0.310 of "
+                        "FULL+L+C, robust (-35.0 %, 95 % -40.0 % to -30.0 %), "
+                        "limit cycles included."));
   EXPECT_THAT(
       state_space_advantage(study(), loops()),
       HasSubstr("(state space, order 9) would be better, but cannot be commissioned loop by loop: "
@@ -78,13 +79,13 @@ TEST(TextStateSpace, LeadsWithItsVerdict) {
   unsettled.simulated.result.slew.emplace();
   EXPECT_THAT(verdict(unsettled),
               HasSubstr("Not usable, as it does not settle within the tightest budget after a "
-                        "slew: with the limit cycle"));
+                        "slew: its simulated rms"));
   EXPECT_EQ(state_space_advantage(unsettled, loops()), "");
   unsettled.simulated.result.slew->settling_time = 3.0;
   EXPECT_THAT(verdict(unsettled), HasSubstr("Better: "));
   auto even = study();
   even.change->upper = 0.01;
-  EXPECT_THAT(verdict(even), HasSubstr("No advantage: with the limit cycle in quadrature"));
+  EXPECT_THAT(verdict(even), HasSubstr("No advantage: its simulated rms"));
   EXPECT_EQ(state_space_advantage(even, loops()), "");
   even.change.reset();
   EXPECT_THAT(verdict(even), HasSubstr("No verdict: a run did not complete."));

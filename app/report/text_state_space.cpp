@@ -69,9 +69,13 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   add("limit cycle at rest", [](const Run& one) { return limit_cycle_cell(one.result, true); });
   add("limit cycle when tracking",
       [](const Run& one) { return limit_cycle_cell(one.result, false); });
+  add("valve command at rest, rad/s rms", [](const Run& one) {
+    const auto& found = one.result.limit_cycles;
+    return found.empty() ? std::string("-") : fmt::format("{:.3f}", found[0].valve_command_rms);
+  });
   add("rms and limit cycle in quadrature", [](const Run& one) { return mdeg(compared_rms(one)); });
-  add("peak error at a velocity reversal, encoder", [](const Run& one) {
-    return one.result.reversal ? mdeg(one.result.reversal->encoder_error) : "-";
+  add("peak boresight error at a velocity reversal", [](const Run& one) {
+    return one.result.reversal ? mdeg(one.result.reversal->boresight_error) : "-";
   });
   add("static boresight error in the mean wind",
       [](const Run& one) { return mdeg(one.result.wind.static_error); });

@@ -38,7 +38,7 @@ std::string words_of(design::Influence influence) {
     case design::Influence::limits:
       return "limits of stroke, spool speed and command";
     case design::Influence::quantisation:
-      return "encoder quantisation";
+      return "encoder quantisation, instead of white noise";
     case design::Influence::orifice:
       return "orifice flow, instead of flow in proportion to the opening";
     case design::Influence::gear:
@@ -128,9 +128,10 @@ Document limit_cycle_part(const TimeDomainSection& section) {
                   limit_cycles.starts_with_limit_cycle, limit_cycles.starts,
                   limit_cycles.some_only() ? ", from different initial steps" : "")
             : fmt::format(
-                  "no lasting limit cycle above the encoder's resolution in {} "
-                  "runs (+-{} mdeg left)",
-                  limit_cycles.starts, mdeg(limit_cycles.encoder_amplitude));
+                  "no lasting limit cycle above the encoder's resolution in {} runs (+-{} mdeg and "
+                  "a valve command of {:.3g} rad/s rms left)",
+                  limit_cycles.starts, mdeg(limit_cycles.encoder_amplitude),
+                  limit_cycles.valve_command_rms);
     text += wrapped(fmt::format("{}, no wind: {}.", where, cycle), "  ", "  ");
   }
   return text;
@@ -148,8 +149,9 @@ Document reversal_part(const TimeDomainSection& section) {
                   "without friction feedforward), {} mdeg at the encoder {:.2f} s after the "
                   "reversal; {} mdeg at the encoder without friction.",
                   section.options.tracking_rate / millidegree, mdeg(reversal.boresight_error),
-                  mdeg(reversal.boresight_error_without_feedforward), mdeg(reversal.encoder_error),
-                  reversal.time_of_largest, mdeg(reversal.encoder_error_without_friction)),
+                  mdeg(reversal.boresight_error_without_friction_feedforward),
+                  mdeg(reversal.encoder_error), reversal.time_of_largest,
+                  mdeg(reversal.encoder_error_without_friction)),
       "  ", "  ");
 }
 
@@ -164,23 +166,22 @@ Document feedforward_part(const TimeDomainSection& section) {
   add("rate command", "commanded acceleration a", forward.acceleration_to_rate_command, " s");
   add("valve command", "commanded rate w", forward.rate_to_valve_command, "");
   add("valve command", "commanded acceleration a", forward.acceleration_to_valve_command, " s");
-  add("valve command", "friction torque Tf", forward.friction_to_valve_command, " rad/(N m s)");
-  add("valve command", "rate of change of Tf", forward.friction_change_to_valve_command,
-      " rad/(N m)");
+  add("valve command", "friction torque Tf", forward.friction_to_valve_command, " rad/(s.N.m)");
+  add("valve command", "change of Tf per s", forward.friction_change_to_valve_command,
+      " rad/(N.m)");
   const plant::FrictionCurve& curve = forward.friction;
   const std::string friction = fmt::format(
-      "Tf = {:.4g} + {:.4g} exp(-(w/{:.3g})^2) + {:.4g} (1 - exp(-w/{:.3g})) + {:.4g} w, N m and "
-      "rad/s, at the commanded rate of the next sample; opposite at negative rates, 0 at rest. It "
-      "is {:.0f} % of the antenna's friction beyond the linear plant's. The controller reads the "
-      "motor torque less Tf.",
+      "Tf = {:.4g} + {:.4g} exp(-(w/{:.3g})^2) + {:.4g} (1 - exp(-|w|/{:.3g})) + {:.4g} |w| N.m, "
+      "with w in rad/s of the motor at the next sample, opposite for negative w, 0 at rest. It is "
+      "{:.0f} % of the antenna's friction. A controller that reads the motor torque reads it less "
+      "Tf.",
       curve.coulomb_torque, curve.breakaway_torque - curve.coulomb_torque, curve.stribeck_rate,
       curve.saturating_torque, curve.saturating_rate, curve.viscous_friction,
       100.0 * section.friction_feedforward);
   const std::string orifice = fmt::format(
       "The sum for the valve command is divided by sqrt(1 - T/{:.4g}), as a loaded orifice passes "
-      "less: T = {:.4g} a + {:.4g} w + Tf against the flow, at most {:g} of the supply.",
-      forward.supply_torque, forward.acceleration_to_motor_torque, forward.rate_to_motor_torque,
-      control::max_feedforward_load);
+      "less: T = {:.4g} a + Tf N.m against the flow, at most {:g} of the supply.",
+      forward.supply_torque, forward.acceleration_to_motor_torque, control::max_feedforward_load);
   return "\n" + table(rows, "ll") + wrapped(friction, "  ") + wrapped(orifice, "  ");
 }
 
@@ -279,15 +280,16 @@ Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.controller) +
          wind_part(section) + integrators_part(section) + static_part(section) +
          limit_cycle_part(section) + reversal_part(section) + slew_part(section) +
-         wrapped(fmt::format(
-                     "The controller: sampled every {:g} s with one sample of computing, "
-                     "feedforward, shaped commands, anti-windup. Encoder resolution: {} mdeg. "
-                     "Assumed: {:g} deg/s2 of command acceleration, friction known to {:.0f} %. "
-                     "Differences: rms with and without each influence, the others on.",
-                     section.sample_time, mdeg(section.encoder_resolution),
-                     section.options.limits.acceleration / degree,
-                     100.0 * (1.0 - section.friction_feedforward)),
-                 "  ") +
+         wrapped(
+             fmt::format("The controller: sampled every {:g} s with one sample of computing, "
+                         "feedforward, shaped commands, anti-windup. Encoder resolution: {} mdeg. "
+                         "Assumed: {:g} deg/s2 of command acceleration, {:.0f} % of the "
+                         "friction fed forward. "
+                         "Differences: rms with and without each influence, the others on.",
+                         section.sample_time, mdeg(section.encoder_resolution),
+                         section.options.limits.acceleration / degree,
+                         100.0 * section.friction_feedforward),
+             "  ") +
          feedforward_part(section) + candidates_part(section);
 }
 

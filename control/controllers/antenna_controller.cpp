@@ -139,7 +139,7 @@ Feedforward with_friction(const Feedforward& feedforward, const plant::AntennaPl
   result.friction.coulomb_torque *= fraction;
   result.friction.breakaway_torque *= fraction;
   result.friction.saturating_torque *= fraction;
-  result.friction.viscous_friction = fraction * (curve.viscous_friction - drive.viscous_friction);
+  result.friction.viscous_friction *= fraction;
   result.friction_to_valve_command = drive.leakage_rate / drive.oil_stiffness;
   result.friction_change_to_valve_command = 1.0 / drive.oil_stiffness;
   return result;
@@ -203,7 +203,7 @@ void AntennaController::prevent_windup(const Controller& controller) {
   }
 }
 
-// Without friction.
+// Of the motion, friction torque not included.
 double AntennaController::expected_torque(double rate, double acceleration) const {
   if (!expects_torque_) return 0.0;
   const auto& forward = options_.feedforward;

@@ -36,13 +36,14 @@ struct Feedforward {
   /// receives the measured torque less this one.
   double rate_to_motor_torque = 0.0;          // N m s/rad
   double acceleration_to_motor_torque = 0.0;  // kg m2
-  /// Friction torque that the commanded rate meets beyond rate_to_motor_torque (with_friction); 0
-  /// at rest. The valve command gets its gains times the torque and its rate of change. Every
-  /// controller receives the measured torque less the friction torque.
+  /// Friction torque at the commanded rate (with_friction), 0 at rest. The valve command gets its
+  /// gains times the torque and times its change per second. A controller that reads the motor
+  /// torque receives it less the friction torque.
   plant::FrictionCurve friction = {};
   double friction_to_valve_command = 0.0;         // rad/s per N m
   double friction_change_to_valve_command = 0.0;  // rad per N m
-  /// Motor torque (N m) at the whole supply pressure. At a load torque T an opening u of the valve
+  /// Motor torque (N m) at the supply pressure less the return pressure; its droop with the flow is
+  /// neglected. At a load torque T an opening u of the valve
   /// passes the flow u sqrt(1 - T/supply_torque), T positive if it acts against the flow (H. E.
   /// Merritt, Hydraulic Control Systems, 1967, ch. 5). The feedforward of the valve command is
   /// divided by that root at the torque that motion and friction take, or at
@@ -60,15 +61,16 @@ struct Feedforward {
 ///   tachometer w - a/(its corner), the rate command at which the rate error is 0.
 /// Each is the inverse of the plant's response at low frequencies, as in M. Tomizuka, Zero phase
 /// error tracking algorithm, J. Dyn. Syst. Meas. Control 109, 1987, for slow commands. Dry friction
-/// is not included: with_friction. A state-space controller gets no pressure path's output, but the
-/// torque T as that which the motion takes.
+/// is not included: with_friction. A state-space controller has no pressure path; it receives the
+/// measured torque less T.
 /// @throws InvalidInput as control::validate, and for a delay that is negative or not finite.
 Feedforward plant_feedforward(const plant::AntennaPlant& plant,
                               const FeedbackController& controller, double delay);
 
-/// Adds the friction torque of the commanded rate: `fraction` (0 or more) of what the curve exceeds
-/// the plant's viscous friction by. Its valve command is that of a torque in plant_feedforward,
-/// xv = (T' + lambda T)/K. It depends on the command alone, so that it changes no loop's stability.
+/// Adds the friction torque of the commanded rate: `fraction` (0 or more) of the curve's. The curve
+/// includes viscous friction: `feedforward` is that of the plant without it. The valve command is
+/// that of a torque in plant_feedforward, xv = (T' + lambda T)/K. It depends on the command alone,
+/// so that it changes no loop's stability.
 /// Source: B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, A survey of models, analysis tools
 /// and compensation methods for the control of machines with friction, Automatica 30, 1994, sec. 6.
 /// @throws InvalidInput for a fraction that is negative or not finite.
@@ -98,7 +100,9 @@ struct AntennaControllerOptions {
 /// (SimulationPlan::computation_delay).
 ///
 /// The friction torque fed forward is that of the commanded rate at the next sample, when the valve
-/// command acts. Commanded rates below 1e-9 rad/s count as rest.
+/// command acts after a computation time of one sample. Measured torque shows it one sample later,
+/// and so is corrected by the friction torque of two samples before. Commanded rates below 1e-9
+/// rad/s count as rest.
 ///
 /// Anti-windup by back calculation (K. J. Astrom, T. Hagglund, PID Controllers, 1995, ch. 3.5) acts
 /// on the angle. The command's excess over the limit is divided by the product of the proportional
@@ -113,9 +117,9 @@ struct AntennaControllerOptions {
 /// must be stable by itself, as it has no anti-windup.
 class AntennaController final : public plant::SampledController {
  public:
-  /// @throws InvalidInput as sampled_controller, for a command limit that is not above 0, and
-  /// feedforward that is not finite; for a state-space controller with another sample time, without
-  /// an encoder, with other ports or not stable by itself.
+  /// @throws InvalidInput as sampled_controller, for a command limit or a supply torque that is not
+  /// above 0, and feedforward that is not finite; for a state-space controller with another sample
+  /// time, without an encoder, with other ports or not stable by itself.
   AntennaController(const FeedbackController& controller, double sample_time,
                     const AntennaControllerOptions& options = {});
 

@@ -27,13 +27,13 @@ using Eigen::VectorXd;
 constexpr double spacing = 1.004;
 // Below the grid, where slow poles of a controller act.
 constexpr double slow_spacing = 1.3, slow_decades = 3.0;
-// What the constraints keep in hand for peaks between the points, and how far a step may miss that.
+// Margin of the constraints for peaks between the points, and by how much a step may miss it.
 constexpr double first_margin = 4e-3, tolerance = 1e-3;
-// Of the margin: what a missed peak may add, and what a step that counts leaves.
-constexpr double max_margins = 5.0, margin_fall = 0.8;
-// A missed peak raises the margin by more than it exceeds: by as much, each next step would miss it
-// again by less and less.
-constexpr double margin_growth = 1.5, min_growth = 0.2 * first_margin;
+// A peak that exceeds its goal by less raises the margin; by more, the step was too long.
+constexpr double max_excess = 5.0 * first_margin;
+// The margin rises by this factor of what is missed: by as much, each next step would miss it again
+// by less and less. An accepted step lowers it.
+constexpr double margin_growth = 1.5, min_growth = 0.2 * first_margin, margin_fall = 0.8;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5;
 // An rms at standstill may be that much of the start's when the largest over the plants is as
 // large.
@@ -122,7 +122,7 @@ class Refinement {
       const double beyond = excess - (result.feasible ? 0.0 : found.missed);
       if (beyond > 0.0) {
         // A peak between the points: keep more in hand. Else the step was too long.
-        if (beyond < max_margins * margin_) {
+        if (beyond < max_excess) {
           const double more = std::max(margin_growth * beyond, min_growth);
           margin_ += more;
           best += slack_cost * more;  // what the last step costs with that, at most

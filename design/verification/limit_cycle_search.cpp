@@ -68,6 +68,7 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
   result.status = run.status;
   result.message = run.message;
   result.encoder_amplitude = result.boresight_amplitude = result.persistence = nan;
+  result.valve_command_rms = nan;
   if (run.status != RunStatus::complete) return result;
   const Index half = whole_samples(0.5 * duration, loop.sample_time);
   const Index quarter = half / 2;
@@ -75,6 +76,8 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
   result.encoder_amplitude = encoder.amplitude;
   const Swing boresight = swing_of(run.boresight_error.tail(half));
   result.boresight_amplitude = boresight.amplitude;
+  const VectorXd command = plant::column(run.result, "valve_command").tail(half);
+  result.valve_command_rms = std::sqrt((command.array() - command.mean()).square().mean());
   const Index kept = std::min(half, whole_samples(longest_limit_cycle_trace, loop.sample_time));
   result.trace = {loop.sample_time, boresight.values.tail(kept), encoder.values.tail(kept)};
   const double before =

@@ -214,14 +214,11 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   const LoopRun run = run_loop(loop, course, {.noise = false});
   const LoopRun without_friction =
       run_loop(loop, course, {.without = {Influence::friction}, .noise = false});
-  SimulatedLoop unaided = loop;
-  unaided.friction_feedforward = 0.0;
-  const LoopRun without_feedforward = run_loop(unaided, course, {.noise = false});
   ReversalResult result;
   result.status = run.status;
   result.message = run.message;
   result.encoder_error = result.boresight_error = result.encoder_error_without_friction =
-      result.boresight_error_without_feedforward = nan;
+      result.boresight_error_without_friction_feedforward = nan;
   // The first reversals set the loop swinging; those after them repeat.
   const Index first = settled + 2 * per_leg;
   const Index rest = course.reference.size() - first;
@@ -232,9 +229,14 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
     result.encoder_error_without_friction =
         without_friction.encoder_error.tail(rest).cwiseAbs().maxCoeff();
   }
-  if (without_feedforward.status == RunStatus::complete) {
-    result.boresight_error_without_feedforward =
-        about_mean(without_feedforward.boresight_error.tail(rest)).cwiseAbs().maxCoeff();
+  if (loop.feedforward && loop.friction_feedforward > 0.0) {
+    SimulatedLoop unaided = loop;
+    unaided.friction_feedforward = 0.0;
+    const LoopRun other = run_loop(unaided, course, {.noise = false});
+    if (other.status == RunStatus::complete) {
+      result.boresight_error_without_friction_feedforward =
+          about_mean(other.boresight_error.tail(rest)).cwiseAbs().maxCoeff();
+    }
   }
   if (run.status != RunStatus::complete) return result;
   Index largest = 0;

@@ -117,6 +117,9 @@ struct LimitCycleResult {
   /// fitted straight line removed.
   double encoder_amplitude = 0.0;
   double boresight_amplitude = 0.0;
+  /// Rms (rad/s) of the valve command about its mean in that half: a loop that stands still may
+  /// still move its valve.
+  double valve_command_rms = 0.0;
   /// Hz; none with fewer than two whole periods in that half.
   std::optional<double> frequency;
   /// Ratio to the amplitude in the quarter before: 1 for a limit cycle, less for a decaying
@@ -139,8 +142,9 @@ struct ReversalResult {
   /// The same without friction: the error that a velocity reversal excites in a linear loop. NaN if
   /// that run did not complete.
   double encoder_error_without_friction = 0.0;
-  /// Boresight error without friction feedforward; NaN if that run did not complete.
-  double boresight_error_without_feedforward = 0.0;
+  /// Boresight error without friction feedforward; NaN if that run did not complete, or the loop
+  /// has none.
+  double boresight_error_without_friction_feedforward = 0.0;
   double time_of_largest = 0.0;  // s after the reversal, of the encoder error
   /// Errors from a reversal on, with further reversals after each `leg`, with and without friction;
   /// the boresight error about its mean. The values above are the maxima of these traces.

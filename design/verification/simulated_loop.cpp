@@ -46,8 +46,12 @@ class StraightFlow final : public plant::NonlinearChannels {
   double null_flow_;
 };
 
+bool contains(std::span<const Influence> without, Influence influence) {
+  return std::ranges::find(without, influence) != without.end();
+}
+
 bool is_off(const LoopRunOptions& options, Influence influence) {
-  return std::ranges::find(options.without, influence) != options.without.end();
+  return contains(options.without, influence);
 }
 
 plant::NonlinearAntenna antenna_without(const SimulatedLoop& loop, const LoopRunOptions& options) {
@@ -213,12 +217,21 @@ SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
   return loop;
 }
 
-control::Feedforward feedforward_of(const SimulatedLoop& loop) {
+control::Feedforward feedforward_of(const SimulatedLoop& loop, std::span<const Influence> without) {
   if (!loop.feedforward) return {};
-  control::Feedforward forward = control::with_friction(
-      control::plant_feedforward(loop.linear, loop.controller, 1.5 * loop.sample_time), loop.linear,
-      loop.antenna.friction.curve, loop.friction_feedforward);
-  forward.supply_torque = loop.antenna.oil.supply_torque - loop.antenna.oil.return_torque;
+  const bool friction = !contains(without, Influence::friction);
+  plant::AntennaPlant plant = loop.linear;
+  if (friction) plant.drive.viscous_friction = 0.0;
+  control::Feedforward forward =
+      control::plant_feedforward(plant, loop.controller, 1.5 * loop.sample_time);
+  if (friction) {
+    plant::FrictionCurve curve = loop.antenna.friction.curve;
+    curve.viscous_friction += loop.antenna.viscous_friction;
+    forward = control::with_friction(forward, plant, curve, loop.friction_feedforward);
+  }
+  if (!contains(without, Influence::orifice)) {
+    forward.supply_torque = loop.antenna.oil.supply_torque - loop.antenna.oil.return_torque;
+  }
   return forward;
 }
 
@@ -283,11 +296,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
   control::AntennaControllerOptions controller_options;
   controller_options.anti_windup = loop.anti_windup;
   if (limited) controller_options.command_limit = loop.antenna.valve.stroke_limit;
-  controller_options.feedforward = feedforward_of(loop);
-  if (is_off(options, Influence::friction)) controller_options.feedforward.friction = {};
-  if (straight) {
-    controller_options.feedforward.supply_torque = std::numeric_limits<double>::infinity();
-  }
+  controller_options.feedforward = feedforward_of(loop, options.without);
   control::AntennaController controller(loop.controller, loop.sample_time, controller_options);
   plant::FeedbackSystem system = plant::to_feedback_system(antenna);
   LoopRun run;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,8 +27,10 @@ struct SimulatedLoop {
   plant::AntennaPlant linear;
   control::FeedbackController controller;
   double gear_ratio = 1.0;
-  double sample_time = 0.02;           // s
-  control::SensorNoise noise;          // densities, as in the linear design
+  double sample_time = 0.02;  // s
+  /// Densities, as in the linear design. Rounding to the steps below is part of it: a run adds the
+  /// white noise that is missing to the same rms.
+  control::SensorNoise noise;
   double encoder_resolution = 0.0;     // rad of motor, step of the converter; 0: none
   double tachometer_resolution = 0.0;  // rad/s
   bool feedforward = true;             // feedforward_of
@@ -44,15 +47,10 @@ SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
                                   const control::FeedbackController& controller);
 
-/// The feedforward of run_loop: control::plant_feedforward, with_friction, and the supply's torque.
-/// Runs without friction have no friction torque in it, runs without orifices no supply torque. All
-/// zero if `feedforward` is false. @throws InvalidInput as its parts.
-control::Feedforward feedforward_of(const SimulatedLoop& loop);
-
 /// Effects that the linear design neglects; each can be switched off separately:
 ///   friction       the curve and its bristles; off: the linear plant's viscous friction
 ///   limits         stroke, spool speed and command limit
-///   quantisation   steps of encoder and tachometer
+///   quantisation   steps of encoder and tachometer; off: white noise of the same rms
 ///   orifice        off: flow proportional to the port's opening at any pressure; no make-up valves
 ///   gear           backlash; off: both halves always in contact
 enum class Influence { friction, limits, quantisation, orifice, gear };
@@ -60,6 +58,13 @@ inline constexpr Influence influences[] = {Influence::friction, Influence::limit
                                            Influence::quantisation, Influence::orifice,
                                            Influence::gear};
 std::string_view to_string(Influence influence);
+
+/// The feedforward of run_loop without these influences: control::plant_feedforward and
+/// control::with_friction, whose curve replaces the plant's viscous friction, and the supply's
+/// torque. Without friction it has the plant's viscous friction, without orifices no supply torque.
+/// All zero if `feedforward` is false. @throws InvalidInput as its parts.
+control::Feedforward feedforward_of(const SimulatedLoop& loop,
+                                    std::span<const Influence> without = {});
 
 /// True if the loop has the influence at all.
 bool has(const SimulatedLoop& loop, Influence influence);

@@ -94,6 +94,8 @@ void describe(Visitor& v, const design::LimitCycleResult& result, LimitCycleDeta
   v.number("frequency", result.frequency, unit::hertz, "Null with less than two periods seen.",
            {.minimum = 0.0});
   if (full) {
+    v.number("valve_command_rms", result.valve_command_rms, unit::radian_per_second,
+             "About its mean, at the end of the run.", {.minimum = 0.0});
     v.number("persistence", result.persistence, unit::ratio, "Amplitude over that before.",
              {.minimum = 0.0});
   }

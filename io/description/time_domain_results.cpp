@@ -108,9 +108,11 @@ void describe_reversal(Visitor& v, const std::optional<design::ReversalResult>& 
                               "Largest after a reversal, about the mean.", positive);
                      v.number("encoder_error_without_friction", one.encoder_error_without_friction,
                               unit::millidegree, "What a loop without friction has too.", positive);
-                     v.number("boresight_error_without_feedforward",
-                              one.boresight_error_without_feedforward, unit::millidegree,
-                              "The same of the boresight without friction feedforward.", positive);
+                     v.number(
+                         "boresight_error_without_friction_feedforward",
+                         one.boresight_error_without_friction_feedforward, unit::millidegree,
+                         "boresight_error of a run without friction feedforward; null without one.",
+                         positive);
                      v.number("time_of_largest", one.time_of_largest, unit::second,
                               "From the reversal to the largest error of the encoder.", positive);
                    });
@@ -142,9 +144,8 @@ void describe_feedforward(Visitor& v, const control::Feedforward& forward, doubl
            "Of the simulated friction torque; the rest is its mismatch.", known);
   v.group(
       "friction_torque",
-      "Friction torque at the commanded rate of the next sample, 0 at rest; that fraction of "
-      "the friction curve beyond the linear plant's viscous friction. It is subtracted from "
-      "the measured torque.",
+      "Friction torque Tf at the commanded rate w of the next sample, 0 at rest: that fraction "
+      "of the friction curve. A controller that reads the motor torque reads it less Tf.",
       [&] {
         const plant::FrictionCurve& curve = forward.friction;
         v.number("coulomb", curve.coulomb_torque, unit::newton_metre, "Tc.", finite);

@@ -74,13 +74,14 @@ TimeDomainSection section() {
   design::LimitCycleResult moving;
   moving.rate = 4.17 * mdeg;
   moving.encoder_amplitude = 0.007 * mdeg;
+  moving.valve_command_rms = 1.25;
   moving.starts = 3;
   section.result.limit_cycles = {rest, moving};
   design::ReversalResult reversal;
   reversal.encoder_error = 4.98 * mdeg;
   reversal.boresight_error = 5.04 * mdeg;
   reversal.encoder_error_without_friction = 1.5 * mdeg;
-  reversal.boresight_error_without_feedforward = 9.03 * mdeg;
+  reversal.boresight_error_without_friction_feedforward = 9.03 * mdeg;
   reversal.time_of_largest = 1.34;
   section.result.reversal = reversal;
   design::SlewResult slew;
@@ -107,15 +108,18 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
   EXPECT_THAT(
       flat,
       HasSubstr(
-          "no lasting limit cycle above the encoder's resolution in 3 runs (+-0.0070 mdeg left)"));
+          "no lasting limit cycle above the encoder's resolution in 3 runs (+-0.0070 mdeg and a "
+          "valve command of 1.25 rad/s rms left)"));
   EXPECT_THAT(flat, HasSubstr("peak error 5.0400 mdeg in boresight (9.0300 without friction "
                               "feedforward), 4.9800 mdeg at the encoder 1.34 s after"));
   EXPECT_THAT(text, ContainsRegex("valve command +commanded acceleration a +0[.]116 s"));
-  EXPECT_THAT(text, ContainsRegex("valve command +rate of change of Tf +0[.]019 rad/.N m."));
-  EXPECT_THAT(flat, HasSubstr("Tf = 8 + 5 exp(-(w/0.15)^2) + 50 (1 - exp(-w/1.5)) + 0.94 w, N m"));
-  EXPECT_THAT(flat, HasSubstr("It is 80 % of the antenna's friction"));
+  EXPECT_THAT(text, ContainsRegex("valve command +change of Tf per s +0[.]019 rad/.N[.]m."));
+  EXPECT_THAT(flat,
+              HasSubstr("Tf = 8 + 5 exp(-(w/0.15)^2) + 50 (1 - exp(-|w|/1.5)) + 0.94 |w| N.m"));
+  EXPECT_THAT(flat, HasSubstr("It is 80 % of the antenna's friction."));
+  EXPECT_THAT(flat, HasSubstr("80 % of the friction fed forward."));
   EXPECT_THAT(flat, HasSubstr("sqrt(1 - T/306), as a loaded orifice passes less: T = 1.817 a + "
-                              "0.9 w + Tf against the flow, at most 0.9 of the supply."));
+                              "Tf N.m against the flow, at most 0.9 of the supply."));
   EXPECT_THAT(flat, HasSubstr("drive limit; specified 0.25 deg/s and 0.2 deg/s2"));
   EXPECT_THAT(flat, HasSubstr("24.16 s after the end of the command"));
 }

@@ -285,8 +285,7 @@ TEST(FrictionFeedforward, OpensTheValveForTheOilThatTheTorqueTakes) {
   options.feedforward = with_friction({}, plant, friction_curve(), fraction);
   AntennaController controller(pi_controller(), sample_time, options);
   const auto torque = [&](double rate) {
-    return fraction *
-           (plant::friction_torque(friction_curve(), rate) - plant.drive.viscous_friction * rate);
+    return fraction * plant::friction_torque(friction_curve(), rate);
   };
   const double acceleration = 8.0;  // rad/s2
   double sum = 0.0, leaked = 0.0;
@@ -307,15 +306,14 @@ TEST(FrictionFeedforward, OpensTheValveForTheOilThatTheTorqueTakes) {
   EXPECT_EQ(command[0], 0.0);
 }
 
-// The sensor sees the torque one sample after the command that built it up.
-TEST(FrictionFeedforward, IsTakenOffTheMeasuredTorque) {
+// The sensor sees the torque two samples after the command for it was computed.
+TEST(FrictionFeedforward, IsSubtractedFromTheMeasuredTorque) {
   const auto plant = reference::antenna();
   AntennaControllerOptions options;
   options.feedforward = with_friction({}, plant, friction_curve(), 1.0);
   AntennaController with(full_controller(), sample_time, options);
   AntennaController without(full_controller(), sample_time);
-  const double torque =
-      plant::friction_torque(friction_curve(), 3.0) - 3.0 * plant.drive.viscous_friction;
+  const double torque = plant::friction_torque(friction_curve(), 3.0);
   const double K = plant.drive.oil_stiffness;
   VectorXd found(1), expected(1);
   for (int k = 0; k < 6; ++k) {

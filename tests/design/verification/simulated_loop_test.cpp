@@ -228,6 +228,8 @@ TEST(SimulatedLoop, FeedforwardIsTheCommandOfASteadyMotionUnderLoad) {
   loop.friction_feedforward = 1.0;
   loop.antenna.offset = {};
   loop.antenna.oil.null_leakage = 0.0;
+  // Whatever friction the linear plant has, as at another rate.
+  loop.linear.drive.viscous_friction = 12.0;
   control::AntennaController controller(loop.controller, loop.sample_time,
                                         {.feedforward = feedforward_of(loop)});
   for (const double rate : {2.0, 20.0, 50.0, -50.0}) {
@@ -297,8 +299,8 @@ TEST(SimulatedLoop, StartsInTheMotionItIsToHold) {
     EXPECT_LT(moved.cwiseAbs().maxCoeff() * loop.gear_ratio, 3.0 * 4.0 * loop.sample_time)
         << controller.structure.name();
     EXPECT_LT(std::abs(moved.tail(1)[0]), 0.02 * mdeg) << controller.structure.name();
-    // Compliance compensation holds the encoder ahead by what the torque bends that friction
-    // leaves.
+    // Compliance compensation holds the encoder ahead by the flexure under the torque less
+    // friction.
     const double torque = plant::column(run.result, "motor_torque")[0] -
                           plant::friction_torque(feedforward_of(loop).friction, 2.0);
     EXPECT_NEAR(run.encoder_error[0] * loop.gear_ratio,

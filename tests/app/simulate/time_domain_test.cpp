@@ -40,12 +40,7 @@ TimeDomainSection section() {
                          .acceleration_to_valve_command = 0.116,
                          .rate_to_motor_torque = 0.9,
                          .acceleration_to_motor_torque = 1.817,
-                         .friction = {.coulomb_torque = 8.0,
-                                      .breakaway_torque = 13.0,
-                                      .stribeck_rate = 0.15,
-                                      .saturating_torque = 50.0,
-                                      .saturating_rate = 1.5,
-                                      .viscous_friction = 0.94},
+                         .friction = {8.0, 13.0, 0.15, 50.0, 1.5, 0.94},
                          .friction_to_valve_command = 0.0232,
                          .friction_change_to_valve_command = 0.019,
                          .supply_torque = 306.0};
@@ -116,8 +111,8 @@ TEST(TimeDomain, TextSaysWhatTheNumbersAre) {
   EXPECT_THAT(text, ContainsRegex("valve command +change of Tf per s +0[.]019 rad/.N[.]m."));
   EXPECT_THAT(flat,
               HasSubstr("Tf = 8 + 5 exp(-(w/0.15)^2) + 50 (1 - exp(-|w|/1.5)) + 0.94 |w| N.m"));
-  EXPECT_THAT(flat, HasSubstr("It is 80 % of the antenna's friction."));
-  EXPECT_THAT(flat, HasSubstr("80 % of the friction fed forward."));
+  EXPECT_THAT(flat, AllOf(HasSubstr("It is 80 % of the antenna's friction."),
+                          HasSubstr("80 % of the friction fed forward.")));
   EXPECT_THAT(flat, HasSubstr("sqrt(1 - T/306), as a loaded orifice passes less: T = 1.817 a + "
                               "Tf N.m against the flow, at most 0.9 of the supply."));
   EXPECT_THAT(flat, HasSubstr("drive limit; specified 0.25 deg/s and 0.2 deg/s2"));

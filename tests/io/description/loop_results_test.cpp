@@ -55,7 +55,7 @@ TEST(LoopResults, LimitCyclesAreToldInThreeDepthsOfOneOrder) {
                                                  "boresight_amplitude_mdeg", "frequency_Hz"));
   EXPECT_THAT(study.places, testing::IsSupersetOf(score.places));
   EXPECT_THAT(full.places, testing::IsSupersetOf(study.places));
-  EXPECT_EQ(full.places.size(), 10U);
+  EXPECT_EQ(full.places.size(), 11U);
 }
 
 }  // namespace

@@ -144,14 +144,17 @@ Document reversal_part(const TimeDomainSection& section) {
     return wrapped(fmt::format("Velocity reversals: {}.", ended(reversal.status, reversal.message)),
                    "  ", "  ");
   }
+  const double unaided = reversal.boresight_error_without_friction_feedforward;
   return wrapped(
-      fmt::format("Velocity reversal at +-{:.3g} mdeg/s: peak error {} mdeg in boresight ({} "
-                  "without friction feedforward), {} mdeg at the encoder {:.2f} s after the "
-                  "reversal; {} mdeg at the encoder without friction.",
-                  section.options.tracking_rate / millidegree, mdeg(reversal.boresight_error),
-                  mdeg(reversal.boresight_error_without_friction_feedforward),
-                  mdeg(reversal.encoder_error), reversal.time_of_largest,
-                  mdeg(reversal.encoder_error_without_friction)),
+      fmt::format(
+          "Velocity reversal at +-{:.3g} mdeg/s: peak error {} mdeg in boresight{}, {} mdeg "
+          "at the encoder {:.2f} s after the reversal; {} mdeg at the encoder without "
+          "friction.",
+          section.options.tracking_rate / millidegree, mdeg(reversal.boresight_error),
+          std::isfinite(unaided) ? fmt::format(" ({} without friction feedforward)", mdeg(unaided))
+                                 : std::string(),
+          mdeg(reversal.encoder_error), reversal.time_of_largest,
+          mdeg(reversal.encoder_error_without_friction)),
       "  ", "  ");
 }
 

@@ -194,10 +194,18 @@ class WindStudy {
   std::vector<WindRun> runs_;
 };
 
-ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
+// A slow triangle of the tracking rate.
+struct ReversalCourse {
+  ReferenceTrajectory course;
+  Index per_leg = 0;
+  Index rest = 0;  // samples after the first reversals, which set the loop swinging; those repeat
+};
+
+ReversalCourse reversal_course(const SimulatedLoop& loop,
+                               const NonlinearVerificationOptions& options) {
   const double gear = loop.gear_ratio;
   const double leg = options.reversal_leg;
-  constexpr Index legs = 6;
+  constexpr Index legs = 6, first_legs = 2;
   const double rate = options.tracking_rate * gear;
   const auto target = [&](double t) {
     const double into = t - options.settling;
@@ -209,8 +217,14 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   };
   const Index settled = whole_samples(options.settling, loop.sample_time);
   const Index per_leg = whole_samples(leg, loop.sample_time);
-  const auto course = shaped_course(options.limits_at_motor(gear), loop.sample_time,
-                                    settled + legs * per_leg, 1, target);
+  auto course = shaped_course(options.limits_at_motor(gear), loop.sample_time,
+                              settled + legs * per_leg, 1, target);
+  const Index rest = course.reference.size() - settled - first_legs * per_leg;
+  return {std::move(course), per_leg, rest};
+}
+
+ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
+  const auto [course, per_leg, rest] = reversal_course(loop, options);
   const LoopRun run = run_loop(loop, course, {.noise = false});
   const LoopRun without_friction =
       run_loop(loop, course, {.without = {Influence::friction}, .noise = false});
@@ -219,24 +233,12 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   result.message = run.message;
   result.encoder_error = result.boresight_error = result.encoder_error_without_friction =
       result.boresight_error_without_friction_feedforward = nan;
-  // The first reversals set the loop swinging; those after them repeat.
-  const Index first = settled + 2 * per_leg;
-  const Index rest = course.reference.size() - first;
-  result.leg = leg;
+  result.leg = options.reversal_leg;
   result.trace = last_errors(run, loop.sample_time, rest);
   result.trace_without_friction = last_errors(without_friction, loop.sample_time, rest);
   if (without_friction.status == RunStatus::complete) {
     result.encoder_error_without_friction =
         without_friction.encoder_error.tail(rest).cwiseAbs().maxCoeff();
-  }
-  if (loop.feedforward && loop.friction_feedforward > 0.0) {
-    SimulatedLoop unaided = loop;
-    unaided.friction_feedforward = 0.0;
-    const LoopRun other = run_loop(unaided, course, {.noise = false});
-    if (other.status == RunStatus::complete) {
-      result.boresight_error_without_friction_feedforward =
-          about_mean(other.boresight_error.tail(rest)).cwiseAbs().maxCoeff();
-    }
   }
   if (run.status != RunStatus::complete) return result;
   Index largest = 0;
@@ -244,6 +246,18 @@ ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOpt
   result.boresight_error = result.trace.boresight.cwiseAbs().maxCoeff();
   result.time_of_largest = loop.sample_time * static_cast<double>(largest % per_leg);
   return result;
+}
+
+// Adds the run without friction feedforward.
+void explain_reversal(SimulatedLoop loop, const NonlinearVerificationOptions& options,
+                      ReversalResult& result) {
+  if (!loop.feedforward || loop.friction_feedforward == 0.0) return;
+  loop.friction_feedforward = 0.0;
+  const auto [course, per_leg, rest] = reversal_course(loop, options);
+  const LoopRun run = run_loop(loop, course, {.noise = false});
+  if (run.status != RunStatus::complete) return;
+  result.boresight_error_without_friction_feedforward =
+      about_mean(run.boresight_error.tail(rest)).cwiseAbs().maxCoeff();
 }
 
 SlewResult slew(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
@@ -343,11 +357,14 @@ void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
   WindStudy wind(problem, loop, options);
   if (options.second_integrator) known.integrators.emplace();
   // The longest first.
-  numerics::for_each_index(1 + wind.jobs(), options.threads, [&](std::size_t job) {
-    if (job > 0) {
-      wind.run(job - 1);
-    } else if (known.integrators) {
-      *known.integrators = wind.compare_integrators();
+  const std::size_t comparing = 0, reversal = 1, first_wind = 2;
+  numerics::for_each_index(first_wind + wind.jobs(), options.threads, [&](std::size_t job) {
+    if (job == comparing) {
+      if (known.integrators) *known.integrators = wind.compare_integrators();
+    } else if (job == reversal) {
+      if (known.reversal && options.explain) explain_reversal(loop, options, *known.reversal);
+    } else {
+      wind.run(job - first_wind);
     }
   });
   known.wind = wind.result();
@@ -378,7 +395,9 @@ NonlinearVerification verify_in_time(const TrackingProblem& problem, const Simul
       limit_cycles[run] =
           limit_cycle_run(loop, options, rates[run / limit_cycle_starts], run % limit_cycle_starts);
     } else if (job == reversal) {
-      if (result.reversal) *result.reversal = reverse(loop, options);
+      if (!result.reversal) return;
+      *result.reversal = reverse(loop, options);
+      if (options.explain) explain_reversal(loop, options, *result.reversal);
     } else if (job == slewing) {
       if (result.slew) *result.slew = slew(loop, options);
     } else {

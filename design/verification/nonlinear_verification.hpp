@@ -23,7 +23,9 @@ struct NonlinearVerificationOptions {
   double wind_duration = 300.0;         // s, after settling
   double settling = 20.0;               // s excluded at the start of every run
   double tracking_rate = 0.0;           // rad/s, in wind and for limit cycles: sidereal
-  bool explain = true;  // repeat the runs in wind by the linear plant and with each influence off
+  /// Repeat the runs in wind by the linear plant and with each influence off, and the reversals
+  /// without friction feedforward.
+  bool explain = true;
   bool second_integrator = false;  // repeat the first run in wind by CVODES
   /// s of that run after settling, at most: a stable loop forgets integration errors.
   double second_integrator_duration = 100.0;
@@ -117,8 +119,8 @@ struct LimitCycleResult {
   /// fitted straight line removed.
   double encoder_amplitude = 0.0;
   double boresight_amplitude = 0.0;
-  /// Rms (rad/s) of the valve command about its mean in that half: a loop that stands still may
-  /// still move its valve.
+  /// Rms (rad/s) of the valve command about its mean in that half. The valve may move while the
+  /// antenna stands still.
   double valve_command_rms = 0.0;
   /// Hz; none with fewer than two whole periods in that half.
   std::optional<double> frequency;
@@ -142,8 +144,8 @@ struct ReversalResult {
   /// The same without friction: the error that a velocity reversal excites in a linear loop. NaN if
   /// that run did not complete.
   double encoder_error_without_friction = 0.0;
-  /// Boresight error without friction feedforward; NaN if that run did not complete, or the loop
-  /// has none.
+  /// Boresight error without friction feedforward; NaN if that run did not complete or was not
+  /// requested (explain), or the loop has none.
   double boresight_error_without_friction_feedforward = 0.0;
   double time_of_largest = 0.0;  // s after the reversal, of the encoder error
   /// Errors from a reversal on, with further reversals after each `leg`, with and without friction;
@@ -193,8 +195,9 @@ bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, doub
 ErrorTrace error_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
                          const NonlinearVerificationOptions& options);
 
-/// Adds to a verification without separate influences what `options` request of its runs in wind:
-/// the influences and the second integrator. The other runs are kept. @throws as verify_in_time.
+/// Adds to a verification without separate influences what `options` request: the influences, the
+/// reversals without friction feedforward and the second integrator. The other runs are kept.
+/// @throws as verify_in_time.
 void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
                      const NonlinearVerificationOptions& options, NonlinearVerification& known);
 

@@ -97,25 +97,25 @@ void describe_limit_cycles(Visitor& v, const std::vector<design::LimitCycleResul
 }
 
 void describe_reversal(Visitor& v, const std::optional<design::ReversalResult>& reversal) {
-  v.optional_group("reversal", reversal, "Slow reversals; null without a tracking rate.",
-                   [&](const design::ReversalResult& one) {
-                     v.defined_as("reversal", "A slow triangle of the tracking rate.");
-                     describe_status(v, one.status);
-                     v.text_or_null("message", one.message, no_figures);
-                     v.number("encoder_error", one.encoder_error, unit::millidegree,
-                              "Largest after a reversal.", positive);
-                     v.number("boresight_error", one.boresight_error, unit::millidegree,
-                              "Largest after a reversal, about the mean.", positive);
-                     v.number("encoder_error_without_friction", one.encoder_error_without_friction,
-                              unit::millidegree, "What a loop without friction has too.", positive);
-                     v.number(
-                         "boresight_error_without_friction_feedforward",
-                         one.boresight_error_without_friction_feedforward, unit::millidegree,
-                         "boresight_error of a run without friction feedforward; null without one.",
-                         positive);
-                     v.number("time_of_largest", one.time_of_largest, unit::second,
-                              "From the reversal to the largest error of the encoder.", positive);
-                   });
+  v.optional_group(
+      "reversal", reversal, "Slow reversals; null without a tracking rate.",
+      [&](const design::ReversalResult& one) {
+        v.defined_as("reversal", "A slow triangle of the tracking rate.");
+        describe_status(v, one.status);
+        v.text_or_null("message", one.message, no_figures);
+        v.number("encoder_error", one.encoder_error, unit::millidegree, "Largest after a reversal.",
+                 positive);
+        v.number("boresight_error", one.boresight_error, unit::millidegree,
+                 "Largest after a reversal, about the mean.", positive);
+        v.number("encoder_error_without_friction", one.encoder_error_without_friction,
+                 unit::millidegree, "What a loop without friction has too.", positive);
+        v.number("boresight_error_without_friction_feedforward",
+                 one.boresight_error_without_friction_feedforward, unit::millidegree,
+                 "boresight_error of a run without friction feedforward; null if it was not made.",
+                 positive);
+        v.number("time_of_largest", one.time_of_largest, unit::second,
+                 "From the reversal to the largest error of the encoder.", positive);
+      });
 }
 
 void describe_feedforward(Visitor& v, const control::Feedforward& forward, double fraction) {

@@ -102,7 +102,8 @@ TEST(Commission, TunesWhereNoGainsAreGiven) {
   EXPECT_THAT(result.output, Not(HasSubstr("pressure feedback, 1")));
 }
 
-// Friction that breaks away at more than twice what slides by hunts; that of the case does not.
+// Friction that breaks away at more than twice what slides by limit-cycles; that of the case does
+// not.
 TEST(Commission, SaysThatAControllerLimitCyclesOnTheNonlinearAntenna) {
   const ScratchFolder folder;
   const std::vector<std::string> gains{"kr=0.043", "wi=0.3 rad/s", "wp=2.5 rad/s", "kp=30 1/s",

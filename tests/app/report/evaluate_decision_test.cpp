@@ -134,7 +134,7 @@ TEST(EvaluateDecision, HasNoFrontWithoutCosts) {
   EXPECT_THAT(conclude(section), Each(Not(HasSubstr("Pareto front of cost"))));
 }
 
-TEST(EvaluateDecision, ChoosesNothingThatHunts) {
+TEST(EvaluateDecision, ChoosesNothingThatLimitCycles) {
   auto section = proposals_of({{0.0, 0.64}, {60.0, 0.5}, {420.0, 0.42}});
   ASSERT_TRUE(section.decision);
   const auto make_limit_cycle = [&](std::size_t i) {

@@ -130,7 +130,7 @@ TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
   EXPECT_THAT(text, HasSubstr("24.16"));
 }
 
-TEST(TimeDomain, DecidesForAControllerThatHoldsStill) {
+TEST(TimeDomain, DecidesForAControllerFreeOfLimitCycles) {
   auto chosen = section();
   EXPECT_EQ(decide(chosen), "");
   // One of less rms in wind that limit-cycles beyond the budget of 0.527 mdeg, which is why it was

@@ -91,10 +91,9 @@ TEST(NonlinearVerification, CoulombFrictionAndIntegralActionLimitCycleAsTheDescr
   }
 }
 
-TEST(NonlinearVerification, WithoutFrictionNothingHunts) {
+TEST(NonlinearVerification, NoLimitCycleWithoutFriction) {
   const auto problem = reference::tracking_problem();
   auto loop = loop_with_coulomb_friction(problem, tuned_controller(), 0.0);
-  loop.friction_feedforward = 1.0;  // of the viscous friction too, as without friction
   auto wanted = options();
   wanted.explain = false;
   wanted.wind_duration = 1.0;
@@ -106,11 +105,12 @@ TEST(NonlinearVerification, WithoutFrictionNothingHunts) {
     EXPECT_LT(limit_cycles.encoder_amplitude, 1e-3 * mdeg);
   }
   ASSERT_TRUE(result.reversal);
-  // Viscous friction is fed forward by its changes from sample to sample, or by the acceleration.
-  EXPECT_NEAR(result.reversal->encoder_error, result.reversal->encoder_error_without_friction,
-              5e-3 * mdeg);
   // A step of the rate by 2 x 4.17 mdeg/s rings at the hydraulic resonance of 0.85 Hz.
   EXPECT_LT(result.reversal->encoder_error, 2.0 * 4.1667 * mdeg / (two_pi * 0.85) * 1.2);
+  // The same loop, as viscous friction is fed forward in two ways otherwise.
+  loop.feedforward = false;
+  const auto without = *verify_in_time(problem, loop, wanted).reversal;
+  EXPECT_NEAR(without.encoder_error, without.encoder_error_without_friction, 1e-3 * mdeg);
 }
 
 TEST(NonlinearVerification, EveryDifferenceFromThePredictionHasAName) {
@@ -148,7 +148,7 @@ TEST(NonlinearVerification, EveryDifferenceFromThePredictionHasAName) {
   EXPECT_LT(result.reversal->encoder_error, 2.0 * result.reversal->encoder_error_without_friction);
   EXPECT_GT(result.reversal->encoder_error, 0.1 * result.reversal->encoder_error_without_friction);
   EXPECT_GT(result.reversal->boresight_error_without_friction_feedforward,
-            1.5 * result.reversal->boresight_error);
+            2.0 * result.reversal->encoder_error_without_friction);
   ASSERT_TRUE(result.slew);
   EXPECT_FALSE(result.slew->achievable_limits);
   EXPECT_TRUE(result.slew->settling_time.has_value());
@@ -301,7 +301,7 @@ TEST(NonlinearVerification, ExplainsLoopsOnly) {
       testing::ThrowsMessage<InvalidInput>(HasSubstr("expected loops with gains to explain")));
 }
 
-TEST(NonlinearVerification, HoldsStillWithinTheRmsOfASine) {
+TEST(NonlinearVerification, AllowsALimitCycleWithinTheRmsOfASine) {
   std::vector<LimitCycleResult> result;
   EXPECT_EQ(limit_cycle_amplitude(result), 0.0);
   EXPECT_TRUE(is_limit_cycle_free(result, 1e-6));

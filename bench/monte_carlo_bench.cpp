@@ -99,7 +99,7 @@ void two_threads_against_arithmetic(benchmark::State& state) {
     }
     state.counters["plants_speed_up"] = one / two;
     state.counters["arithmetic_speed_up"] = arithmetic_one / arithmetic_two;
-    state.counters["share"] = one / two / (arithmetic_one / arithmetic_two);
+    state.counters["relative_speed_up"] = one / two / (arithmetic_one / arithmetic_two);
   }
 }
 BENCHMARK(two_threads_against_arithmetic)->Iterations(1)->Unit(benchmark::kSecond);

@@ -43,11 +43,11 @@ struct Feedforward {
   double friction_to_valve_command = 0.0;         // rad/s per N m
   double friction_change_to_valve_command = 0.0;  // rad per N m
   /// Motor torque (N m) at the supply pressure less the return pressure; its droop with the flow is
-  /// neglected. At a load torque T an opening u of the valve
-  /// passes the flow u sqrt(1 - T/supply_torque), T positive if it acts against the flow (H. E.
-  /// Merritt, Hydraulic Control Systems, 1967, ch. 5). The feedforward of the valve command is
-  /// divided by that root at the torque that motion and friction take, or at
-  /// max_feedforward_load if that is less. Infinite: flow in proportion to the opening.
+  /// neglected. At a load torque T an opening u of the valve passes the flow
+  /// u sqrt(1 - T/supply_torque), T positive if it acts against the flow (H. E. Merritt, Hydraulic
+  /// Control Systems, 1967, ch. 5). The feedforward of the valve command is divided by that root,
+  /// with T the torque of motion and friction, at most max_feedforward_load of the supply.
+  /// Infinite: flow in proportion to the opening.
   double supply_torque = std::numeric_limits<double>::infinity();
 };
 

@@ -11,7 +11,7 @@ constexpr std::size_t most_of_a_kind = control::PeakList::maximum;
 // What a constraint counts as that has no quantity at the moment: met by far.
 constexpr double absent = -1.0;
 
-// The bounds' own logarithms lead back to them but for a rounding error: that is taken away.
+// The bounds' own logarithms lead back to them but for a rounding error, which is removed.
 void set_gains(control::Controller& controller, const std::vector<double>& point) {
   const auto& descriptions = controller.structure.gains();
   for (std::size_t k = 0; k < point.size(); ++k) {

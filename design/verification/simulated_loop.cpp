@@ -50,21 +50,17 @@ bool contains(std::span<const Influence> without, Influence influence) {
   return std::ranges::find(without, influence) != without.end();
 }
 
-bool is_off(const LoopRunOptions& options, Influence influence) {
-  return contains(options.without, influence);
-}
-
 plant::NonlinearAntenna antenna_without(const SimulatedLoop& loop, const LoopRunOptions& options) {
   plant::NonlinearAntenna antenna = loop.antenna;
-  if (is_off(options, Influence::friction)) {
+  if (contains(options.without, Influence::friction)) {
     antenna.friction = {};
     antenna.viscous_friction = loop.linear.drive.viscous_friction;
   }
-  if (is_off(options, Influence::limits)) {
+  if (contains(options.without, Influence::limits)) {
     antenna.valve.stroke_limit = std::numeric_limits<double>::infinity();
     antenna.valve.slew_limit = std::numeric_limits<double>::infinity();
   }
-  if (is_off(options, Influence::gear)) {
+  if (contains(options.without, Influence::gear)) {
     antenna.gear.backlash = std::numeric_limits<double>::infinity();
   }
   return antenna;
@@ -290,8 +286,8 @@ ReferenceTrajectory shaped_course(
 LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
                  const LoopRunOptions& options) {
   check(loop, course);
-  const bool straight = is_off(options, Influence::orifice);
-  const bool limited = !is_off(options, Influence::limits);
+  const bool straight = contains(options.without, Influence::orifice);
+  const bool limited = !contains(options.without, Influence::limits);
   const auto antenna = antenna_without(loop, options);
   control::AntennaControllerOptions controller_options;
   controller_options.anti_windup = loop.anti_windup;
@@ -328,7 +324,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
   plan.controller = &controller;
   plan.computation_delay = loop.sample_time;
   plan.sensors = sensors(loop, control::feeds_torque_back(loop.controller), loop.sample_time,
-                         options, !is_off(options, Influence::quantisation));
+                         options, !contains(options.without, Influence::quantisation));
   plan.seed = options.seed;
   plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;

@@ -18,7 +18,7 @@ program, source, campaigns = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Pat
 page = source / "docs/identification.md"
 names = {"full": "full", "paper-like": "paper-like", "small-dish": "small dish"}
 digits = 4
-# The ends of an interval are of random draws, which another processor's rounding moves in the fourth.
+# The ends of an interval are of random samples, which another processor's rounding moves in the fourth.
 end_digits = 3
 
 

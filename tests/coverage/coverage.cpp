@@ -105,9 +105,9 @@ drawings, by the standard uncertainties that identify is told. What the fitted m
 wind, ripple of the tachometer, air in the oil, backlash under preload, the valve's second order and
 slew limit, the ringing lines, a structural mode that the drawings leave out
 (tests/coverage/random_drive.hpp). Identified as `boresight identify` does, but with {} further
-starts of the grey box and {} draws.
+starts of the grey box and {} samples.
 
-- *covered*: share of all campaigns with its binomial standard uncertainty; a method that gave
+- *covered*: fraction of all campaigns with its binomial standard uncertainty; a method that gave
   nothing has not covered.
 - *half-width*, *bias*: medians of the intervals' half-widths and of the errors, relative to the
   truth.

@@ -80,8 +80,7 @@ ALLOWED_NAMES = {
     "case_leakage_share": "key of the case file", "null_leakage_share": "key of the case file",
     "joint_intensity": "of a joint distribution", "standing_": "that stands, of an event's state",
     "least_squares": "the method", "least_favourable": "of responses, in statistics",
-    "least_of": "of several values", "least_oil": "with least oil", "most_oil": "with most oil",
-    "most_moved": "what is moved most", "power_law": "a power law",
+    "least_of": "of several values", "most_moved": "what is moved most", "power_law": "a power law",
     "LeastSquaresOptions": "the method", "LeastSquaresResult": "the method", "LeastSquaresStatus": "the method",
 }
 # Literals that are right, and why.

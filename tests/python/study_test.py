@@ -138,7 +138,7 @@ def test_example_recommends_what_it_tunes(case_path, tmp_path):
     assert f"{best[1]} constraints met" in printed
     assert "PI-0: least rms with " in printed
     assert printed.count("least rms with probability") == 2
-    # Neither has a finite mean, as each is unstable on some draws: what the others keep within decides.
+    # Neither has a finite mean, as each is unstable on some samples: what the others keep within decides.
     assert re.search(r"^worth its cost: <boresight.Candidate half the flywheels, PI-0: ", printed, re.M)
 
 

@@ -19,10 +19,12 @@
 namespace boresight::design {
 namespace {
 
+using Eigen::ArrayXXcd;
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+constexpr Index sensors = ParallelSections::sensors;
 // Between neighbours on the grid of the gradients: a resonance of 0.5 % damping has some points.
 constexpr double spacing = 1.004;
 // Below the grid, where slow poles of a controller act.
@@ -46,9 +48,6 @@ constexpr int max_refused = 3;
 constexpr std::size_t plants_a_block = 6;
 constexpr Index figures_a_plant = 3;
 constexpr double worthwhile = 1e-4;
-// Of every so many plants the boresight counts for the coordinates; sensitivities do of all, since
-// each plant's resonances lie elsewhere.
-constexpr std::size_t plants_a_curvature = 3;
 // A unit of the coordinates changes figures by about this fraction of themselves, over all plants.
 constexpr double unit_change = 0.4;
 // Of the largest curvature, scaled: directions with less hardly matter and get no more room.
@@ -110,6 +109,7 @@ class Refinement {
     double radius = first_radius;
     double best = result.feasible ? 0.0 : HUGE_VAL;
     int refused = 0;
+    std::vector<RefinementResult> path;  // the steps that met every constraint
     MatrixXd directions = own_directions();
     for (int i = 0; i < options_.steps && radius >= min_radius; ++i) {
       Step found = step(directions, radius);
@@ -158,8 +158,9 @@ class Refinement {
       result.boresight_rms = rms;
       result.feasible = feasible;
       ++result.steps;
+      if (options_.confirms && feasible) path.push_back(result);
     }
-    return result;
+    return confirmed(std::move(result), std::move(path));
   }
 
  private:
@@ -170,6 +171,21 @@ class Refinement {
     double missed = 0.0;  // ln, of the constraints
     long evaluations = 0;
   };
+
+  // The last step that is confirmed, if those are that lead to it; `found` if none is.
+  RefinementResult confirmed(RefinementResult found, std::vector<RefinementResult> path) const {
+    std::size_t known = 0, end = path.size();  // of the steps: confirmed, not so
+    for (std::size_t next = end; known < end; next = (known + end + 1) / 2) {
+      if (options_.confirms(path[next - 1].controller)) {
+        known = next;
+      } else {
+        end = next - 1;
+      }
+    }
+    if (known == 0) return found;
+    path[known - 1].evaluations = found.evaluations;
+    return std::move(path[known - 1]);
+  }
 
   std::vector<SampledSpectrum> spectra(std::span<const SampledSetting> settings) const {
     std::vector<SampledSpectrum> result(settings.size());
@@ -192,15 +208,8 @@ class Refinement {
   // Columns: steps of the parameters of unit effect on mean square and sensitivities.
   MatrixXd own_directions() const {
     const auto response = sections_.response(centre_, frequency_);
-    std::vector<MatrixXd> parts(plants());
-    numerics::for_each_index(plants(), constraints_.threads(), [&](std::size_t i) {
-      parts[i] = curvature(plant(i), peak_goal(i), response,
-                           i < plants_.size() && i % plants_a_curvature == 0);
-    });
-    MatrixXd sum = MatrixXd::Zero(centre_.size(), centre_.size());
-    for (const MatrixXd& part : parts) sum += part;
-    sum = sum.selfadjointView<Eigen::Lower>();
-    sum /= unit_change * unit_change * static_cast<double>(plants());
+    MatrixXd sum =
+        curvature(response) / (unit_change * unit_change * static_cast<double>(plants()));
     // A pole that hardly matters must not leave all bounds either.
     for (const Index k : sections_.logarithms()) sum(k, k) += 1.0;
     VectorXd scale = sum.diagonal().cwiseSqrt();
@@ -211,41 +220,45 @@ class Refinement {
     return scale.asDiagonal() * parts_of.u * size.asDiagonal();
   }
 
-  MatrixXd curvature(const SampledSpectrum& spectrum, double goal,
-                     const ParallelSections::Response& response, bool with_rms) const {
-    const Index count = frequency_.size();
-    // Of ln S, weighted where |S| is next to its goal.
-    const Eigen::ArrayXcd sensitivity = sensitivity_function(spectrum, response.value);
-    const Eigen::ArrayXcd weight = sensitivity * (sensitivity.abs() / goal).min(1.0);
-    Eigen::MatrixXcd rows = Eigen::MatrixXcd::Zero(count, centre_.size());
-    for (Index i = 0; i < ParallelSections::sensors; ++i) {
-      rows += (weight * spectrum.response.col(i)).matrix().asDiagonal() *
-              response.by_parameters.at(static_cast<std::size_t>(i));
-    }
+  // Of the sum over the plants: as each is a quadratic form in the change of the response at each
+  // frequency, the forms are added up first.
+  MatrixXd curvature(const ParallelSections::Response& response) const {
+    std::vector<ArrayXXcd> forms(plants());
+    numerics::for_each_index(plants(), constraints_.threads(), [&](std::size_t i) {
+      forms[i] = quadratic_form(plant(i), peak_goal(i), response.value, i < plants_.size());
+    });
+    ArrayXXcd form = ArrayXXcd::Zero(frequency_.size(), sensors * sensors);
+    for (const ArrayXXcd& one : forms) form += one;
     MatrixXd result = MatrixXd::Zero(centre_.size(), centre_.size());
-    result.selfadjointView<Eigen::Lower>().rankUpdate(stacked(rows).transpose());
-    if (!with_rms) return result;
-    const Eigen::ArrayXXd of_effort = effort_curvature(spectrum, response.value);
-    for (Index i = 0; i < ParallelSections::sensors; ++i) {
-      rows = of_effort.col(i).matrix().asDiagonal() *
-             response.by_parameters.at(static_cast<std::size_t>(i));
-      result.selfadjointView<Eigen::Lower>().rankUpdate(stacked(rows).transpose(),
-                                                        static_cast<double>(plants_a_curvature));
-    }
-    const Eigen::MatrixXcd factors = boresight_curvature(spectrum, response.value);
-    for (Index row = 0; row < ParallelSections::sensors; ++row) {
-      rows.setZero();
-      for (Index i = 0; i < ParallelSections::sensors; ++i) {
-        Eigen::VectorXcd factor(count);
-        for (Index k = 0; k < count; ++k) {
-          factor[k] = factors(ParallelSections::sensors * k + row, i);
-        }
-        rows += factor.asDiagonal() * response.by_parameters.at(static_cast<std::size_t>(i));
+    for (Index i = 0; i < sensors; ++i) {
+      const auto own = sections_.parameters_of(i);
+      const MatrixXd left = stacked(response.by_parameters.at(static_cast<std::size_t>(i)));
+      for (Index j = 0; j < sensors; ++j) {
+        const MatrixXd right = stacked(form.col(sensors * i + j).matrix().asDiagonal() *
+                                       response.by_parameters.at(static_cast<std::size_t>(j)));
+        result(own, sections_.parameters_of(j)) += left.transpose() * right;
       }
-      result.selfadjointView<Eigen::Lower>().rankUpdate(stacked(rows).transpose(),
-                                                        static_cast<double>(plants_a_curvature));
     }
     return result;
+  }
+
+  // At each frequency the Hermitian form of a change of the response to the sensors.
+  static ArrayXXcd quadratic_form(const SampledSpectrum& spectrum, double goal,
+                                  const ArrayXXcd& controller, bool with_rms) {
+    // Of ln S, weighted where |S| is next to its goal.
+    const Eigen::ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
+    const ArrayXXcd factors =
+        spectrum.response.colwise() * (sensitivity * (sensitivity.abs() / goal).min(1.0));
+    ArrayXXcd form(factors.rows(), sensors * sensors);
+    for (Index i = 0; i < sensors; ++i) {
+      for (Index j = 0; j < sensors; ++j) {
+        form.col(sensors * i + j) = factors.col(i).conjugate() * factors.col(j);
+      }
+    }
+    if (!with_rms) return form;
+    const Eigen::ArrayXXd of_effort = effort_curvature(spectrum, controller);
+    for (Index i = 0; i < sensors; ++i) form.col((sensors + 1) * i) += of_effort.col(i).square();
+    return form + boresight_curvature(spectrum, controller);
   }
 
   Step step(const MatrixXd& directions, double radius) const {
@@ -292,12 +305,12 @@ class Refinement {
   }
 
   // 2 Re sum(gradient * dK) per parameter: three columns a plant.
-  static MatrixXd by_parameters(const std::array<MatrixXd, ParallelSections::sensors>& derivatives,
-                                std::span<const LoopFigures> figures) {
+  MatrixXd by_parameters(const std::array<MatrixXd, sensors>& derivatives,
+                         std::span<const LoopFigures> figures) const {
     const Index count = figures.front().boresight_rms.gradient.rows();
     MatrixXd weights(2 * count, figures_a_plant * static_cast<Index>(figures.size()));
-    MatrixXd result = MatrixXd::Zero(derivatives.front().cols(), weights.cols());
-    for (Index sensor = 0; sensor < ParallelSections::sensors; ++sensor) {
+    MatrixXd result = MatrixXd::Zero(centre_.size(), weights.cols());
+    for (Index sensor = 0; sensor < sensors; ++sensor) {
       Index column = 0;
       for (const LoopFigures& one : figures) {
         for (const LoopFigure* figure :
@@ -306,7 +319,7 @@ class Refinement {
           weights.col(column++) << gradient.real(), -gradient.imag();
         }
       }
-      result.noalias() +=
+      result(sections_.parameters_of(sensor), Eigen::all) +=
           2.0 * derivatives.at(static_cast<std::size_t>(sensor)).transpose() * weights;
     }
     return result;
@@ -316,7 +329,7 @@ class Refinement {
                 ConstrainedValues& values) const {
     const VectorXd parameters = moved(directions, point);
     const auto response = sections_.response(parameters, frequency_);
-    std::array<MatrixXd, ParallelSections::sensors> derivatives;
+    std::array<MatrixXd, sensors> derivatives;
     for (std::size_t i = 0; i < derivatives.size(); ++i) {
       derivatives.at(i) = stacked(response.by_parameters.at(i));
     }

@@ -7,7 +7,7 @@
 namespace boresight::design {
 
 struct RefinementOptions {
-  /// Steps of the search. Each takes about 1 s of computing with 31 plants and order 25.
+  /// Steps of the search. Each takes about 0.7 s of computing with 31 plants and order 25.
   int steps = 24;
   /// rad/s: no pole of the controller becomes slower, unless the start has slower ones. What a slew
   /// leaves in slow poles decays as slowly.
@@ -15,6 +15,10 @@ struct RefinementOptions {
   /// A step that meets every constraint counts only if this agrees, which may simulate; all do if
   /// empty.
   std::function<bool(const plant::StateSpace&)> accepts = {};
+  /// What costs too much to be asked at each step: the result is the last step that meets every
+  /// constraint and is confirmed. It is sought by bisection, as if all steps before a confirmed one
+  /// were. If none is confirmed, the last step is returned.
+  std::function<bool(const plant::StateSpace&)> confirms = {};
 };
 
 struct RefinementResult {

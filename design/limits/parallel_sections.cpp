@@ -125,6 +125,18 @@ plant::StateSpace ParallelSections::state_space(const Eigen::VectorXd& parameter
   return result;
 }
 
+std::vector<Index> ParallelSections::parameters_of(Index sensor) const {
+  std::vector<Index> result;
+  Index next = 0;
+  for (Index j = 0; j < pairs_; ++j, next += of_pair) {
+    const Index numerator = next + 2 + 2 * sensor;
+    result.insert(result.end(), {next, next + 1, numerator, numerator + 1});
+  }
+  if (singles_ == 1) result.insert(result.end(), {next, next + 1 + sensor});
+  result.push_back(parameters_.size() - sensors + sensor);
+  return result;
+}
+
 ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& parameters,
                                                       const Eigen::ArrayXd& frequency) const {
   const Index count = frequency.size();
@@ -138,11 +150,11 @@ ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& par
   for (Index i = 0; i < sensors; ++i) {
     result.value.col(i).setConstant(parameters[parameters.size() - sensors + i]);
     auto& derivative = result.by_parameters.at(static_cast<std::size_t>(i));
-    derivative = Eigen::MatrixXcd::Zero(count, parameters.size());
-    derivative.col(parameters.size() - sensors + i).setOnes();
+    derivative.resize(count, 4 * pairs_ + 2 * singles_ + 1);
+    derivative.rightCols(1).setOnes();
   }
-  Index next = 0;
-  for (Index j = 0; j < pairs_; ++j, next += of_pair) {
+  Index next = 0, column = 0;  // of the parameters, of those of a sensor
+  for (Index j = 0; j < pairs_; ++j, next += of_pair, column += 4) {
     const double b1 = std::exp(parameters[next]), b0 = std::exp(parameters[next + 1]);
     const Eigen::ArrayXcd inverse = (delta * (delta + b1) + b0).inverse();
     const Eigen::ArrayXcd rising = delta * inverse;
@@ -152,10 +164,10 @@ ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& par
           parameters[numerator] * rising + parameters[numerator + 1] * inverse;
       result.value.col(i) += part;
       auto& derivative = result.by_parameters.at(static_cast<std::size_t>(i));
-      derivative.col(next) = -b1 * part * rising;
-      derivative.col(next + 1) = -b0 * part * inverse;
-      derivative.col(numerator) = rising;
-      derivative.col(numerator + 1) = inverse;
+      derivative.col(column) = -b1 * part * rising;
+      derivative.col(column + 1) = -b0 * part * inverse;
+      derivative.col(column + 2) = rising;
+      derivative.col(column + 3) = inverse;
     }
   }
   if (singles_ == 1) {
@@ -165,8 +177,8 @@ ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& par
       const Eigen::ArrayXcd part = parameters[next + 1 + i] * inverse;
       result.value.col(i) += part;
       auto& derivative = result.by_parameters.at(static_cast<std::size_t>(i));
-      derivative.col(next) = -b * part * inverse;
-      derivative.col(next + 1 + i) = inverse;
+      derivative.col(column) = -b * part * inverse;
+      derivative.col(column + 1) = inverse;
     }
   }
   return result;

@@ -37,9 +37,13 @@ class ParallelSections {
   /// the output and another one of the same size.
   plant::StateSpace state_space(const Eigen::VectorXd& parameters) const;
 
+  /// Places of the parameters that the response to a sensor depends on: its own numerators and all
+  /// denominators.
+  std::vector<Eigen::Index> parameters_of(Eigen::Index sensor) const;
+
   struct Response {
     Eigen::ArrayXXcd value;                         // frequencies x sensors
-    std::array<Eigen::MatrixXcd, 3> by_parameters;  // per sensor: frequencies x parameters
+    std::array<Eigen::MatrixXcd, 3> by_parameters;  // per sensor: frequencies x parameters_of(it)
   };
   Response response(const Eigen::VectorXd& parameters, const Eigen::ArrayXd& frequency) const;
 

@@ -116,8 +116,9 @@ struct PointingLimitOptions {
   unsigned threads = 1;
   /// Where the refinement starts.
   std::optional<DescribedController> start = std::nullopt;
-  /// RefinementOptions::accepts, of a refinement from there.
-  std::function<bool(const plant::StateSpace&)> accepts = {};
+  /// Those of RefinementOptions, of a refinement from there. The first is asked of steps only if it
+  /// agrees to the start.
+  std::function<bool(const plant::StateSpace&)> accepts = {}, confirms = {};
 };
 
 /// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and

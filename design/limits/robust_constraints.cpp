@@ -16,12 +16,13 @@ namespace {
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
 
-double highest_peak(std::span<const SampledSetting> settings, const Eigen::ArrayXXcd& response) {
-  double peak = 0.0;
-  for (const SampledSetting& one : settings) {
-    peak = std::max(peak, one.highest_peak(response).magnitude);
-  }
-  return peak;
+double highest_peak(std::span<const SampledSetting> settings, const Eigen::ArrayXXcd& response,
+                    unsigned threads) {
+  std::vector<double> peaks(settings.size());
+  numerics::for_each_index(peaks.size(), threads, [&](std::size_t i) {
+    peaks[i] = settings[i].highest_peak(response).magnitude;
+  });
+  return peaks.empty() ? 0.0 : std::ranges::max(peaks);
 }
 
 }  // namespace
@@ -74,9 +75,9 @@ double RobustConstraints::excess(const plant::StateSpace& controller) const {
   const Eigen::ArrayXXcd response =
       SampledSetting::controller_response(controller, plants_.front().frequency());
   const double of_peak =
-      std::log(std::max({highest_peak(plants_, response) / goals_.sensitivity_peak,
-                         highest_peak(at_standstill_, response) / goals_.standstill_peak,
-                         highest_peak(at_edges_, response) / goals_.edge_peak})) +
+      std::log(std::max({highest_peak(plants_, response, threads_) / goals_.sensitivity_peak,
+                         highest_peak(at_standstill_, response, threads_) / goals_.standstill_peak,
+                         highest_peak(at_edges_, response, threads_) / goals_.edge_peak})) +
       reserve;
   if (of_peak > 0.0) return std::min(of_peak, unstable);
   if (!stable(controller)) return unstable;

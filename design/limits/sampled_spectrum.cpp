@@ -2,8 +2,6 @@
 #include <complex>
 #include <numbers>
 
-#include <Eigen/Cholesky>
-
 #include <boresight/design/limits/sampled_spectrum.hpp>
 #include <boresight/numerics/real_schur.hpp>
 #include <boresight/numerics/semidefinite_factor.hpp>
@@ -165,14 +163,14 @@ Eigen::ArrayXXd effort_curvature(const SampledSpectrum& spectrum, const ArrayXXc
   return factors / (factors * controller.abs()).matrix().norm();
 }
 
-MatrixXcd boresight_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
+ArrayXXcd boresight_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
   const ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
   const ArrayXXcd with_command = controller.colwise() * sensitivity;
   const double mean_square =
       boresight_mean_square(spectrum, with_command, sensors_with_command(spectrum, with_command));
-  MatrixXcd result(sensors * controller.rows(), sensors);
+  ArrayXXcd result(controller.rows(), sensors * sensors);
   for (Index k = 0; k < controller.rows(); ++k) {
-    // Sensors in the closed loop: their density's triangular factor.
+    // Sensors in the closed loop: their density.
     Eigen::Matrix3cd closed = Eigen::Matrix3cd::Identity(), density;
     for (Index i = 0; i < sensors; ++i) {
       for (Index j = 0; j < sensors; ++j) {
@@ -181,16 +179,13 @@ MatrixXcd boresight_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& 
       }
     }
     density = closed * density * closed.adjoint();
-    const double scale = std::sqrt(spectrum.weights[k] * spectrum.by_command[k] / mean_square) *
-                         std::abs(sensitivity[k]);
-    const Eigen::LLT<Eigen::Matrix3cd> factor(density);
-    // Indefinite by rounding only where slow wind is far above all noise.
-    if (factor.info() != Eigen::Success) {
-      result.middleRows(sensors * k, sensors).setZero();
-      continue;
+    const double scale =
+        spectrum.weights[k] * spectrum.by_command[k] / mean_square * std::norm(sensitivity[k]);
+    for (Index i = 0; i < sensors; ++i) {
+      for (Index j = 0; j < sensors; ++j) {
+        result(k, sensors * i + j) = scale * density(j, i);
+      }
     }
-    result.middleRows(sensors * k, sensors) =
-        scale * Eigen::MatrixXcd(factor.matrixL()).transpose();
   }
   return result;
 }

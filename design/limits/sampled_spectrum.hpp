@@ -48,11 +48,11 @@ struct LoopFigures {
 
 LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
 
-/// Gauss-Newton factors of the boresight's mean square, three rows a frequency: a small change dK
-/// of the controller's response (a column per frequency) adds |factor dK|^2, summed over the
-/// frequencies and relative to the mean square, beyond what the gradient says. The change of S
-/// counts to first order only.
-Eigen::MatrixXcd boresight_curvature(const SampledSpectrum& spectrum,
+/// Gauss-Newton curvature of the boresight's mean square, a Hermitian matrix H per frequency, by
+/// rows: a small change dK of the controller's response (a column per frequency) adds dK^H H dK,
+/// summed over the frequencies and relative to the mean square, beyond what the gradient says. The
+/// change of S counts to first order only.
+Eigen::ArrayXXcd boresight_curvature(const SampledSpectrum& spectrum,
                                      const Eigen::ArrayXXcd& controller);
 
 /// The same of the effort's mean square, frequencies x sensors: it adds |factor_i dK_i|^2, summed

@@ -6,6 +6,13 @@
 #include <boresight/design/studies/time_domain_study.hpp>
 
 namespace boresight::design {
+namespace {
+
+// s, for steps of the refinement. A limit cycle that builds up later is found in the runs that the
+// result must pass.
+constexpr double first_look = 40.0;
+
+}  // namespace
 
 PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& section,
                                 const PlantEnsemble& ensemble, double wind_speed,
@@ -26,7 +33,11 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
   }
   if (mission.antenna.nonlinear) {
     options.accepts = [&](const plant::StateSpace& controller) {
-      return stands_still(mission, problem, controller, threads);
+      return stands_still(mission, problem, controller,
+                          {.first_look = first_look, .tracking = false, .threads = threads});
+    };
+    options.confirms = [&](const plant::StateSpace& controller) {
+      return stands_still(mission, problem, controller, {.threads = threads});
     };
   }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);

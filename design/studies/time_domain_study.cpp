@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -263,17 +264,32 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 }
 
 bool stands_still(const Mission& mission, const TrackingProblem& problem,
-                  const plant::StateSpace& controller, unsigned threads) {
+                  const plant::StateSpace& controller, const StandstillRuns& runs) {
   const TimeDomainStudy section = plan(mission, problem, "", 1, 1);
   const auto loop = loop_of(mission, problem, control::antenna_state_space_controller(controller),
                             section.encoder_resolution);
-  std::vector<LimitCycleResult> runs(limit_cycle_starts);
-  numerics::for_each_index(runs.size(), threads, [&](std::size_t i) {
-    runs[i] = limit_cycle_run(loop, section.options, 0.0, i);
+  std::vector<double> rates{0.0};
+  if (runs.tracking && section.options.tracking_rate != 0.0) {
+    rates.push_back(section.options.tracking_rate);
+  }
+  // One that does not stand still ends the others: what they find no longer matters.
+  std::atomic<bool> still = true;
+  numerics::for_each_index(rates.size() * limit_cycle_starts, runs.threads, [&](std::size_t i) {
+    if (!still) return;
+    const auto watched = [&](double duration) {
+      NonlinearVerificationOptions options = section.options;
+      options.limit_cycle_duration = duration;
+      return limit_cycle_run(loop, options, rates[i / limit_cycle_starts], i % limit_cycle_starts);
+    };
+    if (runs.first_look) {
+      const auto run = watched(*runs.first_look);
+      // NaN of a run that failed.
+      if (run.encoder_amplitude < 0.5 * min_limit_cycle_amplitude(loop)) return;
+    }
+    const auto run = watched(section.options.limit_cycle_duration);
+    if (run.status != RunStatus::complete || run.limit_cycle) still = false;
   });
-  return std::ranges::all_of(runs, [](const LimitCycleResult& run) {
-    return run.status == RunStatus::complete && !run.limit_cycle;
-  });
+  return still;
 }
 
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

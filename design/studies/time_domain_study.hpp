@@ -127,11 +127,19 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
     const control::FeedbackController& controller, const NonlinearVerificationOptions& options);
-/// True if no start of the search for limit cycles at rest (limit_cycle_run) ends in one. Runs the
-/// nonlinear antenna for some 220 s from each. The problem is one of the mission, which must have
-/// Antenna::nonlinear. @throws as run_loop.
+struct StandstillRuns {
+  /// s after settling: a run that by then moves by less than half of min_limit_cycle_amplitude is
+  /// not continued. None: all take NonlinearVerificationOptions::limit_cycle_duration.
+  std::optional<double> first_look = std::nullopt;
+  bool tracking = true;  // also at the drive's tracking rate, if it has one
+  unsigned threads = 1;
+};
+
+/// True if no start of the search for limit cycles (limit_cycle_run) ends in one, at rest and while
+/// tracking. The problem is one of the mission, which must have Antenna::nonlinear. @throws as
+/// run_loop.
 bool stands_still(const Mission& mission, const TrackingProblem& problem,
-                  const plant::StateSpace& controller, unsigned threads);
+                  const plant::StateSpace& controller, const StandstillRuns& runs);
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads);

@@ -85,8 +85,8 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
           .amplitude;
   result.persistence = before > 0.0 ? encoder.amplitude / before : 1.0;
   result.frequency = frequency_of(encoder, loop.sample_time);
-  const double minimum = std::max(0.5 * loop.encoder_resolution / gear, 1e-3 * millidegree);
-  result.limit_cycle = encoder.amplitude > minimum && result.persistence > 0.8;
+  result.limit_cycle =
+      encoder.amplitude > min_limit_cycle_amplitude(loop) && result.persistence > 0.8;
   return result;
 }
 
@@ -101,6 +101,10 @@ std::size_t worst_of(std::span<const LimitCycleResult> runs) {
 }
 
 }  // namespace
+
+double min_limit_cycle_amplitude(const SimulatedLoop& loop) {
+  return std::max(0.5 * loop.encoder_resolution / loop.gear_ratio, 1e-3 * millidegree);
+}
 
 LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
                                  const NonlinearVerificationOptions& options, double rate,

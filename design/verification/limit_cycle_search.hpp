@@ -7,6 +7,10 @@
 
 namespace boresight::design {
 
+/// rad at the sky: half of peak to peak at the encoder that a limit cycle exceeds, half an encoder
+/// step and at least 1e-3 mdeg.
+double min_limit_cycle_amplitude(const SimulatedLoop& loop);
+
 /// One run of the search for limit cycles at a rate (rad/s at the sky), without wind and noise,
 /// from one of limit_cycle_starts initial steps, over options.limit_cycle_duration. @throws as
 /// run_loop.

@@ -124,6 +124,24 @@ TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
   EXPECT_FALSE(refused.feasible);
   EXPECT_GT(asked, 0);
   EXPECT_LE(asked, 3);
+
+  // The result is the last step that is confirmed, the last of all if none is.
+  const double bound = 0.5 * (found.boresight_rms + plants.front().boresight_rms(start));
+  const auto confirmed_from = [&](double least) {
+    return refine_controller(start, constraints,
+                             {.steps = 50,
+                              .slowest_pole = slowest,
+                              .confirms = [&, least](const plant::StateSpace& controller) {
+                                return plants.front().boresight_rms(controller) >= least;
+                              }});
+  };
+  const auto earlier = confirmed_from(bound);
+  EXPECT_TRUE(earlier.feasible);
+  EXPECT_LT(earlier.steps, found.steps);
+  EXPECT_GE(earlier.boresight_rms, bound);
+  EXPECT_LE(constraints.excess(earlier.controller), 0.0);
+  EXPECT_EQ(confirmed_from(0.0).controller.b, found.controller.b);
+  EXPECT_EQ(confirmed_from(HUGE_VAL).controller.b, found.controller.b);
 }
 
 }  // namespace

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -74,9 +75,14 @@ TEST(ParallelSections, DerivativesAreThoseOfTheResponse) {
                                     sections.response(below, frequency()).value) /
                                    (2.0 * step);
     for (Eigen::Index i = 0; i < 3; ++i) {
-      const auto& derivative = found.by_parameters.at(static_cast<std::size_t>(i));
-      EXPECT_LT((slope.col(i) - derivative.col(k).array()).abs().maxCoeff(),
-                1e-7 * (1.0 + derivative.col(k).cwiseAbs().maxCoeff()))
+      const auto own = sections.parameters_of(i);
+      const auto place = std::ranges::find(own, k) - own.begin();
+      const auto& derivatives = found.by_parameters.at(static_cast<std::size_t>(i));
+      ASSERT_EQ(derivatives.cols(), std::ssize(own));
+      Eigen::ArrayXcd derivative = Eigen::ArrayXcd::Zero(slope.rows());
+      if (place < std::ssize(own)) derivative = derivatives.col(place);
+      EXPECT_LT((slope.col(i) - derivative).abs().maxCoeff(),
+                1e-7 * (1.0 + derivative.abs().maxCoeff()))
           << k << ' ' << i;
     }
   }

@@ -95,12 +95,15 @@ TEST(SampledSpectrum, CurvatureIsThatOfTheMeanSquare) {
   const Eigen::ArrayXXcd change = 0.1 * loop.response;
   const double second =
       0.5 * (mean_square(loop.response + change) + mean_square(loop.response - change)) - here;
-  const Eigen::MatrixXcd factors = boresight_curvature(loop.spectrum, loop.response);
-  double expected = 0.0;
-  for (Eigen::Index k = 0; k < change.rows(); ++k) {
-    expected += (factors.middleRows(3 * k, 3) * change.row(k).matrix().transpose()).squaredNorm();
+  const Eigen::ArrayXXcd curvature = boresight_curvature(loop.spectrum, loop.response);
+  std::complex<double> expected = 0.0;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
+      expected += (change.col(i).conjugate() * curvature.col(3 * i + j) * change.col(j)).sum();
+    }
   }
-  EXPECT_NEAR(second / here / expected, 1.0, 1e-6);
+  EXPECT_NEAR(second / here / expected.real(), 1.0, 1e-6);
+  EXPECT_NEAR(expected.imag() / expected.real(), 0.0, 1e-12);
 }
 
 }  // namespace

@@ -49,6 +49,14 @@ class EditedCase {
                    replacement.empty() ? "" : "\n" + replacement);
   }
 
+  /// Takes a table out, up to the next.
+  EditedCase& remove_table(const std::string& name) {
+    const std::size_t at = text_.find("\n[" + name + "]\n");
+    if (at == std::string::npos) throw std::runtime_error("not in the case: [" + name + "]");
+    text_.erase(at, text_.find("\n[", at + 1) - at);
+    return *this;
+  }
+
   /// Marks the first occurrence of a text.
   EditedCase& mark(const std::string& text) {
     place(text_.find(text));

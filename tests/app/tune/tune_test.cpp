@@ -43,6 +43,12 @@ std::string small_case(const ScratchFolder& folder, const std::string& more = ""
   return folder.write("case.toml", EditedCase().text() + "\n[ensemble]\ndraws = 1\n" + more);
 }
 
+// Where what is said does not rest on the nonlinear antenna: nothing is run on it.
+std::string linear_case(const ScratchFolder& folder, const std::string& more = "") {
+  return folder.write("case.toml", EditedCase().remove_table("simulation").text() +
+                                       "\n[ensemble]\ndraws = 1\n" + more);
+}
+
 ProgramResult tune(const std::string& path, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"tune", path, "--details", "--starts", "3", "--threads", "1"};
   if (std::ranges::find(more, "--structure") == more.end()) {
@@ -207,11 +213,11 @@ TEST(Tune, TunesVerifiesAndSetsBeforeBesideAfter) {
 // Once, not for every wind speed, and before all that rests on the plant.
 TEST(Tune, WarnsOfPresentGainsThatThePlantCallsUnstable) {
   const ScratchFolder folder;
-  const ProgramResult result =
-      tune(small_case(folder,
-                      "[gains]\nstructure = 'PI-0'\nkr = 8\nwi = '0.127 Hz'\nkp = '0.2 1/s'\nwip = "
-                      "'0.02 rad/s'\n"),
-           {"--speed", "10 m/s", "15 m/s"});
+  const ProgramResult result = tune(
+      linear_case(folder,
+                  "[gains]\nstructure = 'PI-0'\nkr = 8\nwi = '0.127 Hz'\nkp = '0.2 1/s'\nwip = "
+                  "'0.02 rad/s'\n"),
+      {"--speed", "10 m/s", "15 m/s"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   const std::string warning = "WARNING: the present gains of PI-0 are unstable";
   const std::size_t at = result.output.find(warning);
@@ -226,8 +232,8 @@ TEST(Tune, WarnsOfPresentGainsThatThePlantCallsUnstable) {
 TEST(Tune, TakesStructuresSpeedsAndGoalsFromTheCommandLine) {
   const ScratchFolder folder;
   const ProgramResult result =
-      tune(small_case(folder), {"--structure", "PI-0", "PI", "--speed", "5 m/s", "36 km/h",
-                                "--goal", "sensitivity_peak=1.9"});
+      tune(linear_case(folder), {"--structure", "PI-0", "PI", "--speed", "5 m/s", "36 km/h",
+                                 "--goal", "sensitivity_peak=1.9"});
   EXPECT_EQ(result.exit_code, 0) << result.errors;
   for (const auto* row : {"PI-0 +nominal +5 ", "PI-0 +nominal +10 ", "PI +robust +5 "}) {
     EXPECT_THAT(result.output, ContainsRegex(row));
@@ -237,7 +243,7 @@ TEST(Tune, TakesStructuresSpeedsAndGoalsFromTheCommandLine) {
 
 TEST(Tune, RefusesWhatItCannotRead) {
   const ScratchFolder folder;
-  const std::string path = small_case(folder);
+  const std::string path = linear_case(folder);
   const std::pair<std::vector<std::string>, const char*> wrong[] = {
       {{"--structure", "PID"}, "--structure: expected PI-0, PI, DPF, LL or FULL"},
       {{"--structure", "PI", "PI"}, "expected each structure once, found 'PI' again"},
@@ -306,7 +312,7 @@ TEST(Tune, FindsInAStructureAtLeastWhatItsPartsDo) {
 
 TEST(Tune, SaysThatAnRmsIsOutOfReach) {
   const ScratchFolder folder;
-  const ProgramResult result = tune(small_case(folder), {"--goal", "beam_rms=0.01 mdeg"});
+  const ProgramResult result = tune(linear_case(folder), {"--goal", "beam_rms=0.01 mdeg"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.errors,
               ContainsRegex("A boresight error of 0.0100 mdeg rms cannot be met at 10 m/s. PI-0 "
@@ -316,7 +322,7 @@ TEST(Tune, SaysThatAnRmsIsOutOfReach) {
 // A wide loop and a small peak: each alone can be had.
 TEST(Tune, SaysWhichGoalsContradictEachOther) {
   const ScratchFolder folder;
-  const std::string path = small_case(folder);
+  const std::string path = linear_case(folder);
   const ProgramResult result = tune(path, {"--goal", "sensitivity_peak=1.2", "bandwidth=0.2 Hz",
                                            "sensitivity_peak_standstill=100"});
   EXPECT_EQ(result.exit_code, 3);
@@ -332,11 +338,11 @@ TEST(Tune, SaysWhichGoalsContradictEachOther) {
 TEST(Tune, SaysThatNoStructureStabilisesThePlant) {
   const ScratchFolder folder;
   const std::string path =
-      small_case(folder,
-                 "[[loop]]\nname = 'hot'\n[[loop.block]]\npath = 'rate'\nkind = "
-                 "'gain'\ngain = { lower = 50, upper = 100 }\n"
-                 "[[loop.block]]\npath = 'position'\nkind = 'gain'\ngain = { "
-                 "lower = '20 1/s', upper = '30 1/s' }\n");
+      linear_case(folder,
+                  "[[loop]]\nname = 'hot'\n[[loop.block]]\npath = 'rate'\nkind = "
+                  "'gain'\ngain = { lower = 50, upper = 100 }\n"
+                  "[[loop.block]]\npath = 'position'\nkind = 'gain'\ngain = { "
+                  "lower = '20 1/s', upper = '30 1/s' }\n");
   const std::string json = folder.file("report.json");
   const ProgramResult result = tune(path, {"--structure", "hot", "--json", json});
   EXPECT_EQ(result.exit_code, 3);

@@ -12,7 +12,8 @@ import subprocess
 import tempfile
 import unittest
 
-from json_schema_test import BIG, PROGRAM, SOURCE, numbers, refuse_constant, run
+from json_schema_test import numbers
+from report_runs import BIG, PROGRAM, SOURCE, refuse_constant, run
 from shown_output import not_printed
 
 # The other antennas, with a search small enough for a test: what is checked is the card.

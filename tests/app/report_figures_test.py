@@ -9,7 +9,7 @@ import math
 import re
 import unittest
 
-from json_schema_test import BIG, TUNED, every_report, report, run
+from report_runs import BIG, TUNED, every_report, report, run
 
 
 def figures_of(found):

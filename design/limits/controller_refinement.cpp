@@ -172,7 +172,7 @@ class Refinement {
     long evaluations = 0;
   };
 
-  // The last step that is confirmed, if those are that lead to it; `found` if none is.
+  // The last step that is confirmed, by bisection; `found` if none of those asked is.
   RefinementResult confirmed(RefinementResult found, std::vector<RefinementResult> path) const {
     std::size_t known = 0, end = path.size();  // of the steps: confirmed, not so
     for (std::size_t next = end; known < end; next = (known + end + 1) / 2) {

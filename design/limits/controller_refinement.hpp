@@ -16,8 +16,8 @@ struct RefinementOptions {
   /// empty.
   std::function<bool(const plant::StateSpace&)> accepts = {};
   /// What costs too much to be asked at each step: the result is the last step that meets every
-  /// constraint and is confirmed. It is sought by bisection, as if all steps before a confirmed one
-  /// were. If none is confirmed, the last step is returned.
+  /// constraint and is confirmed. It is sought by bisection, as if steps were confirmed up to some
+  /// one and none after it. If none of those asked is, the last step is returned.
   std::function<bool(const plant::StateSpace&)> confirms = {};
 };
 

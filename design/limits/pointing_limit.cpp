@@ -348,20 +348,14 @@ PointingLimit pointing_limit(const TrackingProblem& problem, const Constraints& 
   limit.effort_limit = study.goals().control_effort;
   limit.peak_limit = study.goals().sensitivity_peak;
   limit.wind_filter_log_error = study.filter().worst_log_error;
-  // Each on its own members of `limit`; the longest first.
-  const std::array<std::function<void()>, 4> parts{
-      [&] { limit.robustified = study.robustified(); }, [&] { study.bound(limit); },
-      [&] { limit.margin_limited = study.margin_limited(); },
-      [&] {
-        limit.full_information_rms = study.full_information_rms();
-        limit.flexure_rms = flexure_rms(problem);
-      }};
-  numerics::for_each_index(parts.size(), options.threads, [&](std::size_t i) { parts.at(i)(); });
+  study.bound(limit);
+  limit.margin_limited = study.margin_limited();
+  limit.robustified = study.robustified();
   if (limit.robustified) study.refine(*limit.robustified, limit);
-  limit.controllers.resize(controllers.size());
-  numerics::for_each_index(controllers.size(), options.threads, [&](std::size_t i) {
-    limit.controllers[i] = against(controllers[i], study, limit);
-  });
+  limit.full_information_rms = study.full_information_rms();
+  limit.flexure_rms = flexure_rms(problem);
+  for (const DescribedController& named : controllers)
+    limit.controllers.push_back(against(named, study, limit));
   return limit;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,15 +16,6 @@ namespace {
 // Peaks are read off a parabola between frequencies: what it can miss is kept in hand.
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
-
-double highest_peak(std::span<const SampledSetting> settings, const Eigen::ArrayXXcd& response,
-                    unsigned threads) {
-  std::vector<double> peaks(settings.size());
-  numerics::for_each_index(peaks.size(), threads, [&](std::size_t i) {
-    peaks[i] = settings[i].highest_peak(response).magnitude;
-  });
-  return peaks.empty() ? 0.0 : std::ranges::max(peaks);
-}
 
 }  // namespace
 
@@ -74,11 +66,20 @@ bool RobustConstraints::stable(const plant::StateSpace& controller) const {
 double RobustConstraints::excess(const plant::StateSpace& controller) const {
   const Eigen::ArrayXXcd response =
       SampledSetting::controller_response(controller, plants_.front().frequency());
-  const double of_peak =
-      std::log(std::max({highest_peak(plants_, response, threads_) / goals_.sensitivity_peak,
-                         highest_peak(at_standstill_, response, threads_) / goals_.standstill_peak,
-                         highest_peak(at_edges_, response, threads_) / goals_.edge_peak})) +
-      reserve;
+  std::vector<std::pair<const SampledSetting*, double>> limited;  // with the goal of its peak
+  const auto limit = [&](std::span<const SampledSetting> settings, double goal) {
+    for (const SampledSetting& one : settings) limited.emplace_back(&one, goal);
+  };
+  limit(plants_, goals_.sensitivity_peak);
+  limit(at_standstill_, goals_.standstill_peak);
+  limit(at_edges_, goals_.edge_peak);
+  std::vector<double> ratios(limited.size());
+  numerics::for_each_index(ratios.size(), threads_, [&](std::size_t i) {
+    const auto& [setting, goal] = limited[i];
+    const double peak = setting->highest_peak(response).magnitude;
+    ratios[i] = std::isfinite(peak) ? peak / goal : HUGE_VAL;
+  });
+  const double of_peak = std::log(std::ranges::max(ratios)) + reserve;
   if (of_peak > 0.0) return std::min(of_peak, unstable);
   if (!stable(controller)) return unstable;
   std::vector<double> effort(plants_.size());

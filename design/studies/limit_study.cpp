@@ -8,8 +8,8 @@
 namespace boresight::design {
 namespace {
 
-// s, for steps of the refinement. A limit cycle that builds up later is found in the runs that the
-// result must pass.
+// s, for steps of the refinement. A limit cycle that builds up later is found when the result is
+// confirmed.
 constexpr double first_look = 40.0;
 
 }  // namespace
@@ -33,11 +33,12 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
   }
   if (mission.antenna.nonlinear) {
     options.accepts = [&](const plant::StateSpace& controller) {
-      return stands_still(mission, problem, controller,
-                          {.first_look = first_look, .tracking = false, .threads = threads});
+      return shows_no_limit_cycle(
+          mission, problem, controller,
+          {.first_look = first_look, .tracking = false, .threads = threads});
     };
     options.confirms = [&](const plant::StateSpace& controller) {
-      return stands_still(mission, problem, controller, {.threads = threads});
+      return shows_no_limit_cycle(mission, problem, controller, {.threads = threads});
     };
   }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);

@@ -263,8 +263,8 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
   return compare_in_time_domain(mission, problem, controller.name, controller.controller, options);
 }
 
-bool stands_still(const Mission& mission, const TrackingProblem& problem,
-                  const plant::StateSpace& controller, const StandstillRuns& runs) {
+bool shows_no_limit_cycle(const Mission& mission, const TrackingProblem& problem,
+                          const plant::StateSpace& controller, const LimitCycleRuns& runs) {
   const TimeDomainStudy section = plan(mission, problem, "", 1, 1);
   const auto loop = loop_of(mission, problem, control::antenna_state_space_controller(controller),
                             section.encoder_resolution);
@@ -272,10 +272,10 @@ bool stands_still(const Mission& mission, const TrackingProblem& problem,
   if (runs.tracking && section.options.tracking_rate != 0.0) {
     rates.push_back(section.options.tracking_rate);
   }
-  // One that does not stand still ends the others: what they find no longer matters.
-  std::atomic<bool> still = true;
+  // One limit cycle ends the others' runs: what they find no longer matters.
+  std::atomic<bool> none = true;
   numerics::for_each_index(rates.size() * limit_cycle_starts, runs.threads, [&](std::size_t i) {
-    if (!still) return;
+    if (!none) return;
     const auto watched = [&](double duration) {
       NonlinearVerificationOptions options = section.options;
       options.limit_cycle_duration = duration;
@@ -283,13 +283,13 @@ bool stands_still(const Mission& mission, const TrackingProblem& problem,
     };
     if (runs.first_look) {
       const auto run = watched(*runs.first_look);
-      // NaN of a run that failed.
+      // NaN if the run failed, which the longer one tells.
       if (run.encoder_amplitude < 0.5 * min_limit_cycle_amplitude(loop)) return;
     }
     const auto run = watched(section.options.limit_cycle_duration);
-    if (run.status != RunStatus::complete || run.limit_cycle) still = false;
+    if (run.status != RunStatus::complete || run.limit_cycle) none = false;
   });
-  return still;
+  return none;
 }
 
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

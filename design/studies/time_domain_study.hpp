@@ -127,19 +127,19 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
     const control::FeedbackController& controller, const NonlinearVerificationOptions& options);
-struct StandstillRuns {
-  /// s after settling: a run that by then moves by less than half of min_limit_cycle_amplitude is
-  /// not continued. None: all take NonlinearVerificationOptions::limit_cycle_duration.
+struct LimitCycleRuns {
+  /// s after settling: a start whose amplitude at the encoder is then below half of
+  /// min_limit_cycle_amplitude counts as free of a limit cycle. The others, and all if there is no
+  /// first look, run for NonlinearVerificationOptions::limit_cycle_duration.
   std::optional<double> first_look = std::nullopt;
-  bool tracking = true;  // also at the drive's tracking rate, if it has one
+  bool tracking = true;  // at the drive's tracking rate too, if it has one, not only at rest
   unsigned threads = 1;
 };
 
-/// True if no start of the search for limit cycles (limit_cycle_run) ends in one, at rest and while
-/// tracking. The problem is one of the mission, which must have Antenna::nonlinear. @throws as
-/// run_loop.
-bool stands_still(const Mission& mission, const TrackingProblem& problem,
-                  const plant::StateSpace& controller, const StandstillRuns& runs);
+/// True if no start of the search for limit cycles (limit_cycle_run) ends in one. The problem is
+/// one of the mission, which must have Antenna::nonlinear. @throws as run_loop.
+bool shows_no_limit_cycle(const Mission& mission, const TrackingProblem& problem,
+                          const plant::StateSpace& controller, const LimitCycleRuns& runs);
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads);

@@ -49,7 +49,7 @@ class EditedCase {
                    replacement.empty() ? "" : "\n" + replacement);
   }
 
-  /// Takes a table out, up to the next.
+  /// Removes a table, up to the next header.
   EditedCase& remove_table(const std::string& name) {
     const std::size_t at = text_.find("\n[" + name + "]\n");
     if (at == std::string::npos) throw std::runtime_error("not in the case: [" + name + "]");

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -213,6 +214,18 @@ TEST(PointingLimit, RefinesFromTheLoopsItIsGiven) {
   EXPECT_LT(limit.refined->worst_rms, 0.9 * limit.controllers.front().design.worst_rms);
   EXPECT_EQ(limit.refined->stable_members, 1);
   EXPECT_EQ(from(tuned_controllers().front()).refined_from, "robust LQG");
+
+  // What the result must pass is asked of the result.
+  std::optional<plant::StateSpace> confirmed;
+  const PointingLimit again =
+      pointing_limit(problem, {}, members, {loops},
+                     {.threads = 2, .start = loops, .confirms = [&](const plant::StateSpace& one) {
+                        confirmed = one;
+                        return true;
+                      }});
+  ASSERT_TRUE(again.refined && confirmed);
+  EXPECT_EQ(again.refined->controller.b, confirmed->b);
+  EXPECT_EQ(again.refined->controller.b, limit.refined->controller.b);
 }
 
 // Friction slopes of the constraint, and larger ones up to ten times.

@@ -257,7 +257,7 @@ class Refinement {
     }
     if (!with_rms) return form;
     const Eigen::ArrayXXd of_effort = effort_curvature(spectrum, controller);
-    for (Index i = 0; i < sensors; ++i) form.col((sensors + 1) * i) += of_effort.col(i).square();
+    for (Index i = 0; i < sensors; ++i) form.col((sensors + 1) * i) += of_effort.col(i);
     return form + boresight_curvature(spectrum, controller);
   }
 

@@ -160,7 +160,7 @@ Eigen::ArrayXXd effort_curvature(const SampledSpectrum& spectrum, const ArrayXXc
       spectrum.weights.sqrt() * sensitivity_function(spectrum, controller).abs();
   const Eigen::RowVectorXd deviation = spectrum.noise.sqrt().matrix().transpose();
   const Eigen::ArrayXXd factors = (size.matrix() * deviation).array();
-  return factors / (factors * controller.abs()).matrix().norm();
+  return (factors / (factors * controller.abs()).matrix().norm()).square();
 }
 
 ArrayXXcd boresight_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {

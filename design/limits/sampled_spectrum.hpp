@@ -55,8 +55,7 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd
 Eigen::ArrayXXcd boresight_curvature(const SampledSpectrum& spectrum,
                                      const Eigen::ArrayXXcd& controller);
 
-/// The same of the effort's mean square, frequencies x sensors: it adds |factor_i dK_i|^2, summed
-/// over frequencies and sensors.
+/// The same of the effort's mean square, whose H is diagonal: the diagonals, frequencies x sensors.
 Eigen::ArrayXXd effort_curvature(const SampledSpectrum& spectrum,
                                  const Eigen::ArrayXXcd& controller);
 

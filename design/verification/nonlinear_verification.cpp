@@ -195,14 +195,14 @@ class WindStudy {
 };
 
 // A slow triangle of the tracking rate.
-struct ReversalCourse {
-  ReferenceTrajectory course;
+struct ReversalTrajectory {
+  ReferenceTrajectory reference;
   Index per_leg = 0;
   Index rest = 0;  // samples after the first reversals, which set the loop swinging; those repeat
 };
 
-ReversalCourse reversal_course(const SimulatedLoop& loop,
-                               const NonlinearVerificationOptions& options) {
+ReversalTrajectory reversal_trajectory(const SimulatedLoop& loop,
+                                       const NonlinearVerificationOptions& options) {
   const double gear = loop.gear_ratio;
   const double leg = options.reversal_leg;
   constexpr Index legs = 6, first_legs = 2;
@@ -224,10 +224,10 @@ ReversalCourse reversal_course(const SimulatedLoop& loop,
 }
 
 ReversalResult reverse(const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
-  const auto [course, per_leg, rest] = reversal_course(loop, options);
-  const LoopRun run = run_loop(loop, course, {.noise = false});
+  const auto [reference, per_leg, rest] = reversal_trajectory(loop, options);
+  const LoopRun run = run_loop(loop, reference, {.noise = false});
   const LoopRun without_friction =
-      run_loop(loop, course, {.without = {Influence::friction}, .noise = false});
+      run_loop(loop, reference, {.without = {Influence::friction}, .noise = false});
   ReversalResult result;
   result.status = run.status;
   result.message = run.message;
@@ -253,8 +253,8 @@ void explain_reversal(SimulatedLoop loop, const NonlinearVerificationOptions& op
                       ReversalResult& result) {
   if (!loop.feedforward || loop.friction_feedforward == 0.0) return;
   loop.friction_feedforward = 0.0;
-  const auto [course, per_leg, rest] = reversal_course(loop, options);
-  const LoopRun run = run_loop(loop, course, {.noise = false});
+  const auto [reference, per_leg, rest] = reversal_trajectory(loop, options);
+  const LoopRun run = run_loop(loop, reference, {.noise = false});
   if (run.status != RunStatus::complete) return;
   result.boresight_error_without_friction_feedforward =
       about_mean(run.boresight_error.tail(rest)).cwiseAbs().maxCoeff();

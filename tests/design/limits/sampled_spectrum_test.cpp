@@ -78,8 +78,7 @@ TEST(SampledSpectrum, EffortIsItsGradientAndCurvatureWhereNothingComesBack) {
   const Eigen::ArrayXXcd change = 0.3 * loop.response.conjugate() + 0.1 * loop.response;
   const LoopFigure before = loop_figures(loop.spectrum, loop.response).control_effort;
   const LoopFigure after = loop_figures(loop.spectrum, loop.response + change).control_effort;
-  const double curved =
-      (effort_curvature(loop.spectrum, loop.response) * change.abs()).square().sum();
+  const double curved = (effort_curvature(loop.spectrum, loop.response) * change.abs2()).sum();
   const double slope = 4.0 * (before.gradient * change).sum().real();
   EXPECT_NEAR(std::exp(2.0 * (after.logarithm - before.logarithm)), 1.0 + slope + curved, 1e-12);
   EXPECT_GT(curved, 0.01);

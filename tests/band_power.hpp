@@ -57,7 +57,7 @@ inline Eigen::ArrayXd line_powers(const Eigen::VectorXd& series, bool window) {
   return powers;
 }
 
-/// What share of each line's cell, a step wide about it, lies in a band.
+/// Fraction of each line's cell, a step wide about it, that lies in a band.
 inline Eigen::ArrayXd fractions(Eigen::Index lines, double step, const Band& band) {
   return Eigen::ArrayXd::NullaryExpr(lines, [&](Eigen::Index i) {
     const double middle = static_cast<double>(i + 1) * step;

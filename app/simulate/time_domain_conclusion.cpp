@@ -81,7 +81,8 @@ bool has_limit_cycle_beyond(const std::vector<design::LimitCycleResult>& limit_c
 }
 
 // What a controller with a limit cycle beyond an rms error does.
-std::string unrest(const std::vector<design::LimitCycleResult>& limit_cycles, double error) {
+std::string limit_cycle_text(const std::vector<design::LimitCycleResult>& limit_cycles,
+                             double error) {
   if (!has_limit_cycle_beyond(limit_cycles, error)) {
     return "was not shown free of limit cycles (a run at rest or at the tracking rate did not "
            "complete)";
@@ -92,7 +93,8 @@ std::string unrest(const std::vector<design::LimitCycleResult>& limit_cycles, do
 }
 
 // The same of another such controller.
-std::string unrest_too(const std::vector<design::LimitCycleResult>& limit_cycles, double error) {
+std::string other_limit_cycle_text(const std::vector<design::LimitCycleResult>& limit_cycles,
+                                   double error) {
   if (!has_limit_cycle_beyond(limit_cycles, error))
     return "was not shown free of limit cycles either";
   return fmt::format("also has one beyond the budget, +-{:.2f} mdeg",
@@ -108,7 +110,7 @@ std::string first_text(const design::SimulatedCandidate& candidate, double error
                          : fmt::format("its run did not complete ({})", design::to_string(status));
   const double limit_cycles = design::limit_cycle_amplitude(first.limit_cycles);
   if (!design::is_limit_cycle_free(first.limit_cycles, error)) {
-    text += " and " + unrest(first.limit_cycles, error);
+    text += " and " + limit_cycle_text(first.limit_cycles, error);
   } else if (limit_cycles > 0.0) {
     text += fmt::format(" with a limit cycle of +-{:.2f}", limit_cycles / millidegree);
   }
@@ -160,9 +162,9 @@ std::string conclude_choice(const TimeDomainSection& section) {
   if (!std::isfinite(section.own().simulated_rms())) {
     text += fmt::format("the run of {} did not complete either", section.controller);
   } else if (!design::is_limit_cycle_free(limit_cycles, error)) {
-    text +=
-        fmt::format("{}, but {}", merit(section, *first),
-                    first_still ? unrest(limit_cycles, error) : unrest_too(limit_cycles, error));
+    text += fmt::format("{}, but {}", merit(section, *first),
+                        first_still ? limit_cycle_text(limit_cycles, error)
+                                    : other_limit_cycle_text(limit_cycles, error));
   } else if (!first_still) {
     text += fmt::format("{} has no limit cycle beyond the budget", section.controller);
   } else if (is_better(section, *first)) {
@@ -249,7 +251,7 @@ std::string limit_cycle_remark(const TimeDomainSection& section) {
   return fmt::format(
       "On the nonlinear antenna it {}: `boresight tune` searches for a controller free of limit "
       "cycles.",
-      unrest(limit_cycles, error));
+      limit_cycle_text(limit_cycles, error));
 }
 
 std::string decide(const TimeDomainSection& section) {
@@ -263,7 +265,7 @@ std::string decide(const TimeDomainSection& section) {
         section.wind_speed);
   }
   if (!design::is_limit_cycle_free(section.result.limit_cycles, error)) {
-    const std::string evaluated_against = unrest(section.result.limit_cycles, error);
+    const std::string evaluated_against = limit_cycle_text(section.result.limit_cycles, error);
     if (section.candidates.empty()) {
       return fmt::format(
           "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Measure the friction "

@@ -35,7 +35,7 @@ Eigen::VectorXd riccati_scale(const RiccatiMatrices& matrices) {
       const double row = a.row(i).squaredNorm() + g.col(i).squaredNorm();
       const double column = a.col(i).squaredNorm() + q.col(i).squaredNorm();
       if (row == 0.0 || column == 0.0 || !std::isfinite(row) || !std::isfinite(column)) continue;
-      // Elements beside the diagonal of G and Q go with the factor, those on it with its square:
+      // Elements beside the diagonal of G and Q scale with the factor, those on it with its square:
       // half the step that would make row and column equal if all stood beside it.
       const double factor = std::exp2(std::round(0.125 * std::log2(row / column)));
       if (factor == 1.0) continue;

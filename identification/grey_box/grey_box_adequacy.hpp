@@ -19,8 +19,8 @@ struct GreyBoxConflict {
   double limit = 0.0;
   std::string largest;  // the stated number that the records contradict most
   double departure = 0.0;
-  /// The posterior's variances are so many times what they would be: over 1 where the numbers that
-  /// inertia and stiffness rest on are contradicted beyond chance.
+  /// Factor of the posterior's variances: above 1 where records contradict the stated numbers that
+  /// inertia and stiffness rest on significantly.
   double widening = 1.0;
   bool beyond_scatter() const { return sum > limit; }
 };

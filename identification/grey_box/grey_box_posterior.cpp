@@ -149,10 +149,10 @@ std::vector<DriveEstimate> posterior_samples(const GreyBoxParameters& parameters
     e.leakage_rate *= std::exp(posterior.leakage_discrepancy * more.real());
     const auto valve = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 4U);
     e.valve_lag *= std::exp(posterior.lag_discrepancy * valve.real());
-    const auto doubts = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 3U);
+    const auto discrepancies = numbers.pair(static_cast<std::uint64_t>(root.cols()) + 3U);
     e.offset_as_recorded += posterior.offset_discrepancy * oil.imag();
-    fraction_one_way(posterior.one_way, doubts.real(), e);
-    const double saturating = std::exp(posterior.unsaturated * doubts.imag());
+    fraction_one_way(posterior.one_way, discrepancies.real(), e);
+    const double saturating = std::exp(posterior.unsaturated * discrepancies.imag());
     e.coulomb_level += (saturating - 1.0) * e.friction.saturating_torque;
     e.friction.saturating_torque *= saturating;
     e.friction.saturating_rate *= saturating;

@@ -103,12 +103,12 @@ struct CampaignSection {
   /// The combined estimate: one model that explains all records. A plant ensemble uses its samples.
   std::optional<identification::GreyBoxResult> grey_box;
   /// In its place where it could not be had: the random-effects mean of the methods,
-  /// unless they contradict one another beyond chance.
+  /// unless they contradict one another significantly.
   std::optional<identification::CombinedInertia> mean_of_methods;
   std::optional<HoldOut> hold_out;  // where a record has a valve command and others are left
   std::vector<MethodFailure> failures;
-  /// Why all of this is to be doubted: records against stated numbers, or methods against one
-  /// another, beyond chance. Empty if nothing is; otherwise the first of the sentences below.
+  /// The first of the sentences below that applies, where records contradict stated numbers or
+  /// methods contradict one another significantly; otherwise empty.
   std::string contradiction;
   /// Quantities that these records do not determine.
   std::vector<std::string> not_identifiable;

@@ -49,7 +49,7 @@ bool is_suspicious(const RecordNotes& record, const RecordDefect& defect) {
   }
 }
 
-// The more a finding takes away, the earlier it comes.
+// The more a finding invalidates, the earlier it is listed.
 int rank(const ChannelSuspicion& one) {
   if (one.record_refused) return 0;
   const bool counted = one.finding == to_string(DefectKind::missing_samples) ||

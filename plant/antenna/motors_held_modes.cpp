@@ -21,7 +21,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t max_modes = 8;  // starts go with two to the power of their number
+constexpr std::size_t max_modes = 8;  // the number of starts is 2 to the power of it
 
 [[noreturn]] void refuse(const std::string& message) {
   throw InvalidInput("expected " + message);

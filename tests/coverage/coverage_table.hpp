@@ -19,7 +19,7 @@ struct CoverageRow {
   double median_error = 0.0;
   double rms_error = 0.0;
   double fraction() const { return static_cast<double>(covered) / static_cast<double>(campaigns); }
-  /// Binomial standard uncertainty of the share.
+  /// Binomial standard uncertainty of the fraction.
   double fraction_uncertainty() const;
 };
 

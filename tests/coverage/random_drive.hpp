@@ -28,7 +28,7 @@ struct RandomDrive {
   // The recorder.
   std::vector<plant::Sensor> inlet, outlet;  // Pa, one a motor
   plant::Sensor tachometer;                  // rad/s of motor
-  double tachometer_ripple = 0.0;            // amplitude, share of the rate
+  double tachometer_ripple = 0.0;            // amplitude, fraction of the rate
   double ripple_order = 0.0;                 // periods a turn of the motor
   double valve_scale = 1.0;                  // recorded per true command
 

@@ -10,7 +10,7 @@ import tempfile
 
 
 def reference(source, output, *settings):
-    """Runs Doxygen by the project's Doxyfile with these settings in the place of its own."""
+    """Runs Doxygen by the project's Doxyfile with these settings instead of its own."""
     file = (source / "docs/Doxyfile").read_text(encoding="utf-8")
     file += "".join(f"\n{line}" for line in (f"OUTPUT_DIRECTORY = {output}", *settings))
     return subprocess.run(["doxygen", "-"], input=file, cwd=source, capture_output=True, text=True,

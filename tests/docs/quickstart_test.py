@@ -30,7 +30,7 @@ def values_of_the_table():
 
 
 def fill_in(case, values):
-    """Puts the page's values in the place of the blanks: all of them, and no others."""
+    """Replaces the blanks by the page's values: all of them, and no others."""
     table, lines = "", case.read_text(encoding="utf-8").splitlines()
     for number, line in enumerate(lines):
         header, blank = re.match(r"\[\[?[\w.]+\]\]?$", line), re.match(r'(\w+) = "\?"', line)

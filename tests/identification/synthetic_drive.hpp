@@ -86,7 +86,7 @@ inline std::vector<std::pair<Eigen::Index, double>> truth_values() {
 }
 
 /// A record as a recorder with errors would write it, 50 samples a second; torque and rate noise
-/// of the given share of their usual size.
+/// of the given fraction of their usual size.
 inline DriveRecord recorded(const GreyBoxRecord& run, double noise, std::uint64_t seed) {
   const numerics::NormalNumbers numbers(seed, 7);
   const DriveKnowledge k = knowledge();
@@ -151,7 +151,7 @@ inline Campaign campaign(const GreyBoxParameters& parameters, const Eigen::Vecto
 /// The oil's bulk modulus as another test gives it.
 inline const numerics::Interval bulk = numerics::normal_interval(1.3e9, 6.5e6);
 
-/// A fit from one start, with few draws.
+/// A fit from one start, with few samples.
 inline GreyBoxOptions quick() {
   GreyBoxOptions options;
   options.further_starts = 0;

@@ -327,7 +327,8 @@ TEST(CaseWind, TracksInAMeasuredWind) {
   }
   ASSERT_TRUE(run.predicted_rms);
   ASSERT_TRUE(run.boresight_rms);
-  // In 8 m/s: gusts go with V, torque with V gusts, and all of it to lower frequencies.
+  // In 8 m/s: gusts scale with V, torque with V times the gusts, and all of it to lower
+  // frequencies.
   const auto problem = make_problem(antenna);
   const auto tuned =
       design::tune(problem, control::LoopStructure::pi_with_lag(), make_goals(antenna), {});

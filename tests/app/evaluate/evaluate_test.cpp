@@ -156,7 +156,7 @@ TEST(Evaluate, ComparesOnTheNonlinearAntenna) {
     EXPECT_LT(controller.simulated_to_linear_rms(), 2.0) << candidate.name;
     EXPECT_EQ(controller.time_domain->limit_cycles.size(), 2U);
     EXPECT_TRUE(controller.time_domain->reversal);
-    // Losses go with the square of the rms.
+    // Losses scale with the square of the rms.
     const double rms = controller.effect().rms(controller.design.boresight_rms);
     const double loss = design::pointing_loss_db(rms, section.bands[0].beamwidth,
                                                  design::LossConvention::mean_loss_two_axes);

@@ -71,7 +71,7 @@ TEST(InputEffects, AreWhatTheClosedLoopSays) {
   const InputEffect& coefficient = effect_of(effects, "wind.torque_coefficient");
   EXPECT_TRUE(coefficient.unstated);
   EXPECT_DOUBLE_EQ(coefficient.moved_by, 0.1 * antenna.wind->torque_coefficient.value);
-  // Davenport's gusts go with the root of the drag, also where it is converted from a mast.
+  // Davenport's gusts scale with the root of the drag, also where it is converted from a mast.
   const InputEffect& drag = effect_of(effects, "wind.surface_drag");
   EXPECT_NEAR(drag.high_rms, std::hypot(std::sqrt(1.1) * design.wind_rms, design.noise_rms),
               1e-5 * design.boresight_rms);

@@ -93,7 +93,7 @@ void expect_derivatives(const Predict& predict, const Vector& c) {
 }
 
 TEST(PredictRate, DerivativesAreThoseOfDifferences) {
-  // Without turning round: there the friction has a kink, and differences across it are none.
+  // Without a velocity reversal: there the friction has a kink, and differences across it are none.
   GreyBoxRecord record = moving_record(200);
   record.torque.array() += 150.0;
   record.rate.array() += 20.0;

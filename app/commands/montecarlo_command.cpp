@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <boresight/app/commands/controller_option.hpp>
 #include <boresight/app/commands/montecarlo_command.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -44,12 +45,7 @@ Subcommand add_montecarlo(CLI::App& program) {
   sub->add_option("--plants", arguments->plants, "number of sampled plants")
       ->check(CLI::Range(1.0, 1e8))
       ->capture_default_str();
-  sub->add_option("--gains", arguments->gains,
-                  "the controller: 'tuned' (as `boresight tune` recommends, tuned now), 'case' "
-                  "(present gains of the case), or a report of tune or redesign in JSON")
-      ->capture_default_str();
-  sub->add_option("--structure", arguments->structure,
-                  "its loop structure, as for `boresight tune` (default: any)");
+  add_controller(*sub, "the controller", arguments->controller);
   sub->add_flag("--retune", arguments->retune,
                 "also tune plant-specific gains, for the cost of fixed gains");
   sub->add_option("--csv", arguments->csv_path, "write every plant to this file");

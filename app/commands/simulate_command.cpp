@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <boresight/app/commands/controller_option.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/commands/simulate_command.hpp>
 #include <boresight/app/figures/simulation_figures.hpp>
@@ -69,14 +70,14 @@ void check_tests(const std::vector<std::string>& tests) {
 // The case as stated is what runs; with records the controller is that of the drive they show.
 SimulatedController controller_of(const io::Case& antenna, const SimulateArguments& arguments,
                                   const std::function<bool()>& interrupted) {
-  if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
+  if (auto named = named_controller(antenna, arguments.controller)) {
     return {std::move(named->controller), std::move(named->source)};
   }
   const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   design::TuneOptions options;
-  if (!arguments.structure.empty()) {
-    options.structures = structure_option(designed.antenna, {arguments.structure});
+  if (!arguments.controller.structure.empty()) {
+    options.structures = structure_option(designed.antenna, {arguments.controller.structure});
   }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
@@ -263,13 +264,7 @@ Subcommand add_simulate(CLI::App& program) {
          "record format: csv, rounded to the recorder's resolution; mat, version 5, full precision")
       ->check(CLI::IsMember({"csv", "mat"}))
       ->capture_default_str();
-  sub->add_option(
-         "--gains", arguments->gains,
-         "the controller of tracking and slew: 'tuned' (as `boresight tune` recommends, tuned "
-         "now), 'case' (present gains of the case), or a report of tune or redesign in JSON")
-      ->capture_default_str();
-  sub->add_option("--structure", arguments->structure,
-                  "its loop structure, as for `boresight tune` (default: any)");
+  add_controller(*sub, "the controller of tracking and slew", arguments->controller);
   sub->add_option(
          "--sample-rate", arguments->sample_rate,
          "sample rate of the records in Hz (default: that of the case); slosh at least 1000")

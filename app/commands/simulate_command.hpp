@@ -8,6 +8,7 @@
 
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/simulate/simulation_report.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 
 namespace boresight::app {
 
@@ -18,12 +19,9 @@ struct SimulateArguments {
   std::string format = "csv";      // of the records: "csv" or "mat"
   Outputs outputs;
   std::uint64_t seed = 1;
-  double sample_rate = 0.0;  // Hz, of the records; 0: as the case has it
-  /// Of tracking and slew: 'tuned' (recommended_controller), 'case' (what the antenna runs on now),
-  /// or a report of tune or redesign in JSON; and the structure, empty: any.
-  std::string gains = "tuned";
-  std::string structure;
-  unsigned threads = 1;  // so many records at a time; they do not depend on it
+  double sample_rate = 0.0;      // Hz, of the records; 0: as the case has it
+  ControllerOptions controller;  // of tracking and slew
+  unsigned threads = 1;          // so many records at a time; they do not depend on it
 };
 
 /// Runs the tests on the nonlinear antenna of the case. Writes a record of each, TEST.csv or

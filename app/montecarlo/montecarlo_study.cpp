@@ -20,6 +20,7 @@
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/present_gains.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/exchange/monte_carlo_checkpoint.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/write_atomically.hpp>
@@ -89,16 +90,17 @@ std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-// Gains as bytes, so that every rank holds the same controller to the last bit.
+// Exact, so that every rank holds the same controller to the last bit.
 std::string controller_bytes(const ChosenController& fixed_gain) {
   std::ostringstream text;
-  text << fixed_gain.structure << '\n' << fixed_gain.source << '\n' << std::hexfloat;
+  text << fixed_gain.structure << '\n' << fixed_gain.source << '\n';
+  if (const auto* system = fixed_gain.controller.structure.state_space()) {
+    text << io::controller_json(*system);
+    return text.str();
+  }
+  text << std::hexfloat;
   for (const double gain : fixed_gain.controller.gains) text << gain << '\n';
   return text.str();
-}
-
-std::string gains_text(const std::string& text) {
-  return text.substr(text.find('\n', text.find('\n') + 1) + 1);
 }
 
 ChosenController controller_from(const std::string& text, const io::Case& antenna) {
@@ -106,9 +108,15 @@ ChosenController controller_from(const std::string& text, const io::Case& antenn
   std::istringstream lines(text);
   std::getline(lines, fixed_gain.structure);
   std::getline(lines, fixed_gain.source);
+  const std::string rest(std::istreambuf_iterator<char>(lines), {});
+  if (rest.starts_with('{')) {
+    fixed_gain.controller = control::state_space_controller(
+        fixed_gain.structure, io::parse_controller(rest, fixed_gain.source, 1.0).system);
+    return fixed_gain;
+  }
   fixed_gain.controller.structure = io::structure_named(antenna, fixed_gain.structure);
   // Streams do not read hexadecimal numbers.
-  std::istringstream numbers(gains_text(text));
+  std::istringstream numbers(rest);
   for (std::string line; std::getline(numbers, line);)
     fixed_gain.controller.gains.push_back(std::stod(line));
   return fixed_gain;
@@ -117,12 +125,12 @@ ChosenController controller_from(const std::string& text, const io::Case& antenn
 ChosenController make_controller(const MonteCarloArguments& arguments, const Population& population,
                                  const std::function<bool()>& interrupted) {
   const io::Case& antenna = population->antenna;
-  if (auto named = named_controller(antenna, arguments.gains, arguments.structure)) {
+  if (auto named = named_controller(antenna, arguments.controller)) {
     return std::move(*named);
   }
   design::TuneOptions options;
-  if (!arguments.structure.empty()) {
-    options.structures = structure_option(antenna, {arguments.structure});
+  if (!arguments.controller.structure.empty()) {
+    options.structures = structure_option(antenna, {arguments.controller.structure});
   }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
@@ -260,9 +268,9 @@ MonteCarloOutcome run_montecarlo(const MonteCarloArguments& arguments, Ranks& ra
   on_all(ranks, [&] {
     if (ranks.first()) require_outputs(arguments);
     io::Case antenna = io::read_case(arguments.case_path);
-    if (!arguments.structure.empty()) {
+    if (!arguments.controller.structure.empty()) {
       try {
-        io::loop_structure(antenna, arguments.structure);
+        io::loop_structure(antenna, arguments.controller.structure);
       } catch (const InvalidInput& error) {
         throw InvalidInput(fmt::format("--structure: {}", error.what()));
       }

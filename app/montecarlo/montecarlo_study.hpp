@@ -9,6 +9,7 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/montecarlo/montecarlo_section.hpp>
 #include <boresight/app/montecarlo/ranks.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 
 namespace boresight::io {
 class Visitor;
@@ -22,8 +23,7 @@ struct MonteCarloArguments {
   std::string csv_path;         // of every plant; empty: none
   std::string checkpoint_path;  // empty: none
   std::uint64_t plants = 10000;
-  std::string structure;        // empty: all that tune tunes
-  std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
+  ControllerOptions controller;
   bool retune = false;
   std::uint64_t seed = 1;
   unsigned threads = 1;

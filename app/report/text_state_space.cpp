@@ -99,8 +99,8 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
       "It also meets the limit on Ms at standstill and is stable with its loop open. It is not "
       "among the controllers to recommend: it has no loops to close one by one, no constraint on "
       "the rate loop alone or on the position loop, and no anti-windup. --mat writes it as "
-      "state_space_controller, which `boresight benchmark CASE --controller FILE --part "
-      "state_space_controller` evaluates.",
+      "state_space_controller, which benchmark, simulate and montecarlo take with "
+      "`--controller FILE --part state_space_controller`.",
       "  ");
   return text;
 }

@@ -5,10 +5,15 @@
 
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/tune_section.hpp>
+#include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/design/verification/stable_gain.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/io/exchange/sampled_controller_file.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -16,6 +21,28 @@ namespace {
 
 // A controller evaluated on samples may violate constraints.
 constexpr auto usable = design::Fitness::unverified;
+
+ChosenController state_space_of(const io::Case& antenna, const ControllerOptions& options) {
+  if (options.gains != "tuned" || !options.structure.empty()) {
+    throw InvalidInput("expected either --controller or --gains and --structure, found both");
+  }
+  const std::string& path = options.controller_path;
+  const design::Mission mission = io::mission_of(antenna);
+  const design::TrackingProblem problem = design::tracking_problem(mission);
+  auto [controller, remarks] =
+      io::read_sampled_controller(path, io::gear_ratio(antenna),
+                                  control::sample_time_of(problem.delay), {{}, {}, options.part});
+  const auto factor = design::largest_stable_factor(problem, controller);
+  if (factor != 1.0) {
+    throw InfeasibleRequirement(
+        fmt::format("{}: the loop of this controller is unstable on the nominal antenna; {}", path,
+                    factor ? fmt::format("it is stable with its output times {:.3g}", *factor)
+                           : "no smaller output of it, down to a thousandth, makes it stable"));
+  }
+  std::string source = path;
+  for (const auto& remark : remarks) source += "; " + remark;
+  return {controller, controller.structure.name(), std::move(source)};
+}
 
 }  // namespace
 
@@ -31,14 +58,16 @@ ChosenController present_controller(const io::Case& antenna, const std::string& 
                   structure.empty() ? "" : fmt::format(" of the structure {}", structure)));
 }
 
-std::optional<ChosenController> named_controller(const io::Case& antenna, const std::string& gains,
-                                                 const std::string& structure) {
-  if (gains == "tuned") return std::nullopt;
-  if (gains == "case") return present_controller(antenna, structure);
-  auto reported = io::controller_of_report(antenna, gains, structure);
-  return ChosenController{
-      std::move(reported.controller), std::move(reported.structure),
-      reported.tuned_for.empty() ? gains : fmt::format("{}, tuned {}", gains, reported.tuned_for)};
+std::optional<ChosenController> named_controller(const io::Case& antenna,
+                                                 const ControllerOptions& options) {
+  if (!options.controller_path.empty()) return state_space_of(antenna, options);
+  if (options.gains == "tuned") return std::nullopt;
+  if (options.gains == "case") return present_controller(antenna, options.structure);
+  auto reported = io::controller_of_report(antenna, options.gains, options.structure);
+  return ChosenController{std::move(reported.controller), std::move(reported.structure),
+                          reported.tuned_for.empty()
+                              ? options.gains
+                              : fmt::format("{}, tuned {}", options.gains, reported.tuned_for)};
 }
 
 ChosenController recommended_controller(const io::DesignedAntenna& designed,

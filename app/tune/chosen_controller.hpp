@@ -10,21 +10,32 @@
 
 namespace boresight::app {
 
-/// A controller of Boresight's structures and where its gains come from, in words.
+/// A controller and where it comes from, in words.
 struct ChosenController {
   control::Controller controller;
   std::string structure;  // as the user names it
   std::string source;
 };
 
+/// What a command line names. With a path of a state space, nothing else is named.
+struct ControllerOptions {
+  std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
+  std::string structure;        // empty: any
+  std::string controller_path;  // of a state space; empty: none
+  std::string part;             // of that file: which state space (io::ControllerNames)
+};
+
 /// What the antenna runs on now: of [gains], or of the [[loop]] named `structure`.
 /// @throws InvalidInput if the case has none.
 ChosenController present_controller(const io::Case& antenna, const std::string& structure);
 
-/// What the options --gains and --structure name: with "case" present_controller, with a path
-/// io::controller_of_report; nothing with "tuned". @throws InvalidInput as they do
-std::optional<ChosenController> named_controller(const io::Case& antenna, const std::string& gains,
-                                                 const std::string& structure);
+/// The controller of a command line: with "case" present_controller, with a path of a report
+/// io::controller_of_report, with one of a state space io::read_sampled_controller at the sample
+/// time of the antenna's computer; nothing with "tuned".
+/// @throws InvalidInput as they do; InfeasibleRequirement for a state space that is not stable on
+/// the nominal antenna, with the factor of its output at which it is.
+std::optional<ChosenController> named_controller(const io::Case& antenna,
+                                                 const ControllerOptions& options);
 
 /// The controller that every command takes where none is named: the one recommended by
 /// study_controllers; where none is fit for that, the least unfit that keeps the nominal antenna

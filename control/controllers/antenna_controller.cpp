@@ -45,26 +45,10 @@ plant::StateSpace in_ports(const plant::StateSpace& sampled, bool torque) {
 }
 
 // The same of a state space. A commanded rate is subtracted from the tachometer's.
-plant::StateSpace about_motion(const plant::StateSpace& controller, double sample_time) {
-  plant::validate(controller);
+plant::StateSpace about_motion(const plant::StateSpace& controller) {
   const auto reads = [&](const char* name) {
     return std::ranges::count(controller.inputs, name) > 0;
   };
-  const bool known = std::ranges::all_of(controller.inputs, [](const std::string& name) {
-    return name == "tachometer" || name == "encoder" || name == "motor_torque";
-  });
-  if (!known || !reads("encoder") || controller.outputs.size() != 1 ||
-      controller.outputs.front() != "valve_demand") {
-    throw InvalidInput(fmt::format(
-        "antenna controller: expected inputs encoder, and tachometer or motor_torque, and the "
-        "output valve_demand, found {} -> {}",
-        fmt::join(controller.inputs, ", "), fmt::join(controller.outputs, ", ")));
-  }
-  if (!(std::abs(controller.sample_time - sample_time) <= 1e-9 * sample_time)) {
-    throw InvalidInput(
-        fmt::format("antenna controller: expected a controller sampled every {} s, found {} s",
-                    sample_time, controller.sample_time));
-  }
   const double radius = numerics::spectral_radius(controller.a);
   if (!(radius < 1.0)) {
     throw InvalidInput(fmt::format(
@@ -93,17 +77,9 @@ plant::StateSpace about_motion(const plant::StateSpace& controller, double sampl
 
 }  // namespace
 
-bool feeds_torque_back(const FeedbackController& controller) {
-  if (const auto* loops = std::get_if<Controller>(&controller)) {
-    return loops->structure.has(LoopPath::pressure) || loops->structure.has(LoopPath::compliance);
-  }
-  return std::ranges::count(std::get<plant::StateSpace>(controller).inputs, "motor_torque") > 0;
-}
-
-Feedforward plant_feedforward(const plant::AntennaPlant& antenna,
-                              const FeedbackController& controller, double delay) {
-  const auto* loops = std::get_if<Controller>(&controller);
-  if (loops != nullptr) validate(*loops);
+Feedforward plant_feedforward(const plant::AntennaPlant& antenna, const Controller& controller,
+                              double delay) {
+  validate(controller);
   if (!(delay >= 0.0) || !std::isfinite(delay)) {
     throw InvalidInput(
         fmt::format("plant_feedforward: expected a delay of 0 or more, found {} s", delay));
@@ -118,9 +94,7 @@ Feedforward plant_feedforward(const plant::AntennaPlant& antenna,
   result.acceleration_to_valve_command =
       (drive.leakage_rate * inertia + drive.viscous_friction) / drive.oil_stiffness +
       opening * (2.0 * drive.valve_damping / drive.valve_corner + delay);
-  if (loops != nullptr) {
-    result.acceleration_to_valve_command += pressure_slope(*loops) * drive.viscous_friction;
-  }
+  result.acceleration_to_valve_command += pressure_slope(controller) * drive.viscous_friction;
   result.rate_to_motor_torque = drive.viscous_friction;
   result.acceleration_to_motor_torque = inertia;
   return result;
@@ -145,12 +119,12 @@ Feedforward with_friction(const Feedforward& feedforward, const plant::AntennaPl
   return result;
 }
 
-AntennaController::AntennaController(const FeedbackController& controller, double sample_time,
+AntennaController::AntennaController(const Controller& controller, double sample_time,
                                      const AntennaControllerOptions& options)
     : sample_time_(sample_time),
       options_(options),
-      reads_torque_(feeds_torque_back(controller)),
-      expects_torque_(std::holds_alternative<plant::StateSpace>(controller)),
+      reads_torque_(controller.structure.feeds_torque_back()),
+      expects_torque_(controller.structure.state_space() != nullptr),
       outputs_{"valve_command"} {
   const auto& forward = options.feedforward;
   if (!(options.command_limit > 0.0) ||
@@ -170,17 +144,16 @@ AntennaController::AntennaController(const FeedbackController& controller, doubl
   for (const char* reference : {"reference", "reference_rate", "reference_acceleration"}) {
     inputs_.emplace_back(reference);
   }
-  const auto* loops = std::get_if<Controller>(&controller);
-  const plant::StateSpace seen =
-      loops != nullptr ? in_ports(sampled_controller(*loops, sample_time), reads_torque_)
-                       : about_motion(std::get<plant::StateSpace>(controller), sample_time);
+  const plant::StateSpace sampled = sampled_controller(controller, sample_time);
+  const plant::StateSpace seen = expects_torque_ ? about_motion(*controller.structure.state_space())
+                                                 : in_ports(sampled, reads_torque_);
   a_ = seen.a;
   b_ = seen.b;
   c_ = seen.c;
   d_ = seen.d;
   initial_ = state_ = next_ = Eigen::VectorXd::Zero(a_.rows());
   back_calculation_ = Eigen::VectorXd::Zero(a_.rows());
-  if (loops != nullptr && options.anti_windup) prevent_windup(*loops);
+  if (!expects_torque_ && options.anti_windup) prevent_windup(controller);
 }
 
 void AntennaController::prevent_windup(const Controller& controller) {

@@ -2,7 +2,6 @@
 
 #include <limits>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -13,14 +12,6 @@
 #include <boresight/plant/nonlinear/sampled_controller.hpp>
 
 namespace boresight::control {
-
-/// A controller for the antenna's computer: loops with gains, or any linear controller as a state
-/// space that is sampled already (inputs among tachometer, encoder and motor_torque; output
-/// valve_demand).
-using FeedbackController = std::variant<Controller, plant::StateSpace>;
-
-/// True if the controller reads the motor torque.
-bool feeds_torque_back(const FeedbackController& controller);
 
 /// Largest load, as a fraction of the supply torque, for which Feedforward opens the valve further.
 inline constexpr double max_feedforward_load = 0.9;
@@ -64,8 +55,8 @@ struct Feedforward {
 /// is not included: with_friction. A state-space controller has no pressure path; it receives the
 /// measured torque less T.
 /// @throws InvalidInput as control::validate, and for a delay that is negative or not finite.
-Feedforward plant_feedforward(const plant::AntennaPlant& plant,
-                              const FeedbackController& controller, double delay);
+Feedforward plant_feedforward(const plant::AntennaPlant& plant, const Controller& controller,
+                              double delay);
 
 /// Adds the friction torque of the commanded rate: `fraction` (0 or more) of the curve's. The curve
 /// includes viscous friction: `feedforward` is that of the plant without it. The valve command is
@@ -120,7 +111,7 @@ class AntennaController final : public plant::SampledController {
   /// @throws InvalidInput as sampled_controller, for a command limit or a supply torque that is not
   /// above 0, and feedforward that is not finite; for a state-space controller with another sample
   /// time, without an encoder, with other ports or not stable by itself.
-  AntennaController(const FeedbackController& controller, double sample_time,
+  AntennaController(const Controller& controller, double sample_time,
                     const AntennaControllerOptions& options = {});
 
   double sample_time() const override { return sample_time_; }
@@ -150,7 +141,7 @@ class AntennaController final : public plant::SampledController {
   void prevent_windup(const Controller& controller);
 
   bool reads_torque_ = false;
-  bool expects_torque_ = false;  // that of the motion: a state space
+  bool expects_torque_ = false;  // that of the motion: a state space's
   std::vector<std::string> inputs_, outputs_;
   // Inputs: tachometer, encoder less reference, rate command's feedforward, torque.
   Eigen::MatrixXd a_, b_;

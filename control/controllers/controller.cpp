@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/controller.hpp>
+#include <boresight/control/controllers/sensor_response.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/linear_solve.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 #include <boresight/plant/linear/transfer_function.hpp>
 
@@ -110,7 +113,32 @@ void append_rate_controller(std::vector<plant::StateSpace>& parts, const Control
   parts.push_back(difference("rate_demand", "pressure_demand", "valve_demand"));
 }
 
+// Inverse of Tustin's rule as plant::sample has it.
+plant::StateSpace continuous(const plant::StateSpace& sampled) {
+  const Eigen::Index n = sampled.a.rows();
+  const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(n, n);
+  const Eigen::MatrixXd inverse =
+      numerics::linear_solve(sampled.a + identity, identity, "controller: continuous form");
+  plant::StateSpace system = sampled;
+  system.sample_time = 0.0;
+  system.a = 2.0 / sampled.sample_time * (inverse * (sampled.a - identity));
+  system.b = 2.0 / sampled.sample_time * (inverse * sampled.b);
+  system.c = 2.0 * (sampled.c * inverse);
+  system.d = sampled.d - sampled.c * inverse * sampled.b;
+  return system;
+}
+
+plant::StateSpace without_encoder(const plant::StateSpace& controller) {
+  std::vector<std::string> inputs = controller.inputs;
+  std::erase(inputs, "encoder");
+  return plant::subsystem(controller, inputs, {"valve_demand"});
+}
+
 }  // namespace
+
+Controller state_space_controller(std::string name, const plant::StateSpace& controller) {
+  return {LoopStructure::of_state_space(std::move(name), controller), {}};
+}
 
 void validate(const Controller& controller) {
   const auto& descriptions = controller.structure.gains();
@@ -139,6 +167,13 @@ double gain(const Controller& controller, std::string_view symbol) {
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency) {
   const double w = angular_frequency;
   CompensatorResponse response;
+  if (const SensorResponse* fixed = controller.structure.sensor_response()) {
+    const auto [tachometer, encoder, torque] = fixed->at(w);
+    response.rate = -tachometer;
+    response.position = encoder / tachometer;
+    response.pressure = -torque;
+    return response;
+  }
   response.rate = response.position = 1.0;
   response.pressure = controller.structure.has(LoopPath::pressure) ? 1.0 : 0.0;
   response.compliance = controller.structure.has(LoopPath::compliance) ? 1.0 : 0.0;
@@ -194,8 +229,29 @@ CompensatorResponse compensator_response(const Controller& controller, double an
   return response;
 }
 
+plant::StateSpace with_rate_command(const plant::StateSpace& controller) {
+  const Eigen::Index encoder = plant::input_index(controller, "encoder");
+  const Eigen::Index inputs = controller.b.cols();
+  plant::StateSpace system = controller;
+  system.inputs.emplace_back("rate_disturbance");
+  system.outputs.emplace_back("rate_command");
+  system.b.conservativeResize(Eigen::NoChange, inputs + 1);
+  system.b.col(inputs) = -controller.b.col(encoder);
+  system.c.conservativeResize(2, Eigen::NoChange);
+  system.c.row(1).setZero();
+  system.d = Eigen::MatrixXd::Zero(2, inputs + 1);
+  system.d.topLeftCorner(1, inputs) = controller.d;
+  system.d(0, inputs) = -controller.d(0, encoder);
+  system.d(1, encoder) = -1.0;
+  system.d(1, inputs) = 1.0;
+  return system;
+}
+
 plant::StateSpace to_state_space(const Controller& controller) {
   validate(controller);
+  if (const plant::StateSpace* sampled = controller.structure.state_space()) {
+    return with_rate_command(continuous(*sampled));
+  }
   const bool compliance = controller.structure.has(LoopPath::compliance);
   std::vector<plant::StateSpace> parts;
   std::vector<std::string> inputs{"tachometer", "encoder", "rate_disturbance"};
@@ -215,6 +271,9 @@ plant::StateSpace to_state_space(const Controller& controller) {
 
 plant::StateSpace rate_loop_controller(const Controller& controller) {
   validate(controller);
+  if (const plant::StateSpace* sampled = controller.structure.state_space()) {
+    return without_encoder(continuous(*sampled));
+  }
   std::vector<plant::StateSpace> parts{
       plant::static_gain(Eigen::MatrixXd::Constant(1, 1, -1.0), {"tachometer"}, {"rate_error"})};
   append_rate_controller(parts, controller);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <complex>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Controller {
   std::vector<double> gains;
 };
 
+/// The controller that a state space is (LoopStructure::of_state_space). @throws as it
+Controller state_space_controller(std::string name, const plant::StateSpace& controller);
+
 /// @throws InvalidInput for the wrong number of gains or one that is not positive and finite.
 void validate(const Controller& controller);
 
@@ -33,15 +37,23 @@ struct CompensatorResponse {
   std::complex<double> compliance;  // C, rad per N m; 0 where absent
   std::array<std::complex<double>, max_gains> by_gain{};
 };
+/// Those of a state space as LoopStructure::of_state_space has it, with P = 1/R times its response
+/// to the encoder and without C.
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
 
 /// State space of the controller. Inputs: tachometer (rad/s), encoder (rad), motor_torque (N m;
 /// only if the pressure or compliance path feeds it back), rate_disturbance (rad/s, added to the
-/// rate command). Outputs: valve_demand (rad/s, before the dead time), rate_command.
+/// rate command). Outputs: valve_demand (rad/s, before the dead time), rate_command. For a state
+/// space: the continuous system from which Tustin's method gives the sampled one,
+/// with_rate_command.
 plant::StateSpace to_state_space(const Controller& controller);
 
 /// The same with the position loop open: inputs tachometer, motor_torque (only with a pressure
 /// path); output valve_demand.
 plant::StateSpace rate_loop_controller(const Controller& controller);
+
+/// A state space with the ports of a controller with loops. It has no rate command; cut at its
+/// encoder it has one in form, rate_command = rate_disturbance - (1/s) encoder.
+plant::StateSpace with_rate_command(const plant::StateSpace& controller);
 
 }  // namespace boresight::control

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/control/controllers/loop_structure.hpp>
+#include <boresight/control/controllers/sensor_response.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::control {
@@ -14,6 +17,8 @@ struct LoopStructure::Definition {
   std::string name;
   std::vector<LoopBlock> blocks;
   std::vector<GainDescription> gains;
+  std::optional<plant::StateSpace> state_space;
+  std::optional<SensorResponse> response;
 };
 
 namespace {
@@ -175,7 +180,29 @@ LoopStructure::LoopStructure(std::string name, std::vector<LoopBlock> blocks) {
   check_gains(name, blocks, gains);
   check_paths(name, blocks);
   definition_ = std::make_shared<const Definition>(
-      Definition{std::move(name), std::move(blocks), std::move(gains)});
+      Definition{std::move(name), std::move(blocks), std::move(gains), {}, {}});
+}
+
+LoopStructure LoopStructure::of_state_space(std::string name, const plant::StateSpace& controller) {
+  plant::validate(controller);
+  if (!(controller.sample_time > 0.0)) refuse(name, "expected a sampled state space");
+  const auto read = [&](std::size_t sensor) {
+    return std::ranges::count(controller.inputs, sensor_names.at(sensor)) == 1;
+  };
+  const auto known = [](const std::string& input) {
+    return std::ranges::find(sensor_names, input) != sensor_names.end();
+  };
+  if (!read(0) || !read(1) || !std::ranges::all_of(controller.inputs, known) ||
+      controller.outputs != std::vector<std::string>{"valve_demand"}) {
+    refuse(name,
+           fmt::format("expected the inputs tachometer, encoder and, if read, motor_torque, "
+                       "and the output valve_demand, found {} -> {}",
+                       fmt::join(controller.inputs, ", "), fmt::join(controller.outputs, ", ")));
+  }
+  LoopStructure structure;
+  structure.definition_ = std::make_shared<const Definition>(
+      Definition{std::move(name), {}, {}, controller, SensorResponse(controller)});
+  return structure;
 }
 
 const LoopStructure& LoopStructure::pi() {
@@ -303,6 +330,26 @@ const std::vector<GainDescription>& LoopStructure::gains() const {
   return definition_->gains;
 }
 
+const plant::StateSpace* LoopStructure::state_space() const {
+  return definition_->state_space ? &*definition_->state_space : nullptr;
+}
+
+const SensorResponse* LoopStructure::sensor_response() const {
+  return definition_->response ? &*definition_->response : nullptr;
+}
+
+std::size_t LoopStructure::parts() const {
+  const plant::StateSpace* system = state_space();
+  return system != nullptr ? static_cast<std::size_t>(system->a.rows()) : gains().size();
+}
+
+bool LoopStructure::feeds_torque_back() const {
+  if (const plant::StateSpace* system = state_space()) {
+    return std::ranges::count(system->inputs, "motor_torque") > 0;
+  }
+  return has(LoopPath::pressure) || has(LoopPath::compliance);
+}
+
 bool LoopStructure::has(LoopPath path) const {
   return std::ranges::any_of(blocks(), [&](const LoopBlock& one) { return one.path == path; });
 }
@@ -312,7 +359,13 @@ int LoopStructure::count(LoopPath path, BlockKind kind) const {
 }
 
 bool LoopStructure::operator==(const LoopStructure& other) const {
-  return definition_ == other.definition_ || name() == other.name();
+  if (definition_ == other.definition_) return true;
+  const plant::StateSpace* one = state_space();
+  const plant::StateSpace* another = other.state_space();
+  if (one == nullptr || another == nullptr) return one == another && name() == other.name();
+  return one->sample_time == another->sample_time && one->inputs == another->inputs &&
+         one->a == another->a && one->b == another->b && one->c == another->c &&
+         one->d == another->d;
 }
 
 std::string_view to_string(const LoopStructure& structure) {

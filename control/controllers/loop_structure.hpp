@@ -5,7 +5,11 @@
 #include <string_view>
 #include <vector>
 
+#include <boresight/plant/linear/state_space.hpp>
+
 namespace boresight::control {
+
+class SensorResponse;
 
 /// The compensators of a controller:
 ///   rate       R  of rate command less tachometer
@@ -53,7 +57,8 @@ struct DrivenLoad {
 
 /// The blocks of a controller. A value type, cheap to copy. Each path is the product of its blocks;
 /// a path without blocks is absent (pressure, compliance). Gain vectors contain the gains of the
-/// blocks in their order.
+/// blocks in their order. A structure may be a state space instead: without blocks and gains, it is
+/// one controller.
 class LoopStructure {
  public:
   /// PI with lag.
@@ -63,6 +68,14 @@ class LoopStructure {
   /// upper, a duplicate symbol, more leads than lags in a path, an integral in the pressure or
   /// compliance path, or a pressure path without a washout (it would oppose the static load).
   LoopStructure(std::string name, std::vector<LoopBlock> blocks);
+
+  /// A sampled linear controller in place of blocks. Inputs tachometer, encoder and, if read,
+  /// motor_torque; output valve_demand (the complete demand, before the dead time). It has one
+  /// loop, through all its sensors: no rate loop of its own and no rate command. In the analysis of
+  /// continuous loops its response is that at z = e^(jwT) with the hold's amplitude
+  /// (SensorResponse); the dead time is that of its computation and hold, 1.5 T.
+  /// @throws InvalidInput for a continuous system or other ports, and as plant::validate.
+  static LoopStructure of_state_space(std::string name, const plant::StateSpace& controller);
 
   // The usual structures, with bounds for loads like the default of DrivenLoad.
   static const LoopStructure& pi();                 // rate and position PI
@@ -96,6 +109,13 @@ class LoopStructure {
   const std::string& name() const;
   const std::vector<LoopBlock>& blocks() const;
   const std::vector<GainDescription>& gains() const;
+  /// The sampled controller and its response; null for a structure of blocks.
+  const plant::StateSpace* state_space() const;
+  const SensorResponse* sensor_response() const;
+  /// Number of gains, or of the states of a state space: the measure of its complexity.
+  std::size_t parts() const;
+  /// True if the controller reads the motor torque.
+  bool feeds_torque_back() const;
   bool has(LoopPath path) const;
   /// Number of blocks of that kind in the path.
   int count(LoopPath path, BlockKind kind) const;

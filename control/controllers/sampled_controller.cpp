@@ -25,6 +25,17 @@ double prewarped_corner(double corner, double sample_time, double limit) {
   return corner * std::tan(half_angle) / half_angle;
 }
 
+// The system of a structure that is a state space, null for loops.
+const plant::StateSpace* own_state_space(const Controller& controller, double sample_time) {
+  const plant::StateSpace* system = controller.structure.state_space();
+  if (system != nullptr && !(std::abs(system->sample_time - sample_time) <= 1e-9 * sample_time)) {
+    throw InvalidInput(
+        fmt::format("sampled controller: expected a sample time of {} s, that of {}, found {} s",
+                    system->sample_time, controller.structure.name(), sample_time));
+  }
+  return system;
+}
+
 SampledLoop around(const plant::StateSpace& plant, const plant::StateSpace& controller) {
   const auto command_only = plant::subsystem(controller, controller.inputs, {"valve_demand"});
   return {plant, plant::renamed(command_only, {{"valve_demand", "valve_command"}}),
@@ -62,8 +73,11 @@ Controller prewarped(const Controller& controller, double sample_time) {
 }
 
 plant::StateSpace sampled_controller(const Controller& controller, double sample_time) {
-  const auto sampled = plant::sample(to_state_space(prewarped(controller, sample_time)),
-                                     sample_time, plant::SamplingMethod::tustin);
+  const plant::StateSpace* own = own_state_space(controller, sample_time);
+  const auto sampled = own != nullptr
+                           ? with_rate_command(*own)
+                           : plant::sample(to_state_space(prewarped(controller, sample_time)),
+                                           sample_time, plant::SamplingMethod::tustin);
   const auto error = plant::static_gain(Eigen::RowVector2d{1.0, -1.0},
                                         {"encoder", "angle_reference"}, {"angle_error"});
   std::vector<std::string> inputs{"tachometer", "encoder", "angle_reference", "rate_disturbance"};
@@ -74,6 +88,11 @@ plant::StateSpace sampled_controller(const Controller& controller, double sample
 }
 
 plant::StateSpace sampled_rate_loop_controller(const Controller& controller, double sample_time) {
+  if (const plant::StateSpace* own = own_state_space(controller, sample_time)) {
+    std::vector<std::string> inputs = own->inputs;
+    std::erase(inputs, "encoder");
+    return plant::subsystem(*own, inputs, {"valve_demand"});
+  }
   return plant::sample(rate_loop_controller(prewarped(controller, sample_time)), sample_time,
                        plant::SamplingMethod::tustin);
 }

@@ -23,8 +23,8 @@ Controller prewarped(const Controller& controller, double sample_time);
 /// they belong to the loop. Inputs: tachometer (rad/s), encoder, angle_reference (rad; subtracted
 /// from the encoder), rate_disturbance (rad/s, added to the rate command), motor_torque (N m, only
 /// if the controller feeds it back). Outputs: valve_demand, rate_command (rad/s). States as
-/// to_state_space.
-/// @throws InvalidInput as prewarped.
+/// to_state_space. A state space is sampled already: as it is, with_rate_command.
+/// @throws InvalidInput as prewarped, and for a state space with another sample time.
 plant::StateSpace sampled_controller(const Controller& controller, double sample_time);
 
 /// The same with the position loop open: inputs and output of rate_loop_controller.

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include <boresight/control/controllers/delay.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
@@ -70,9 +71,42 @@ plant::StateSpace rate_loop_alone(const plant::AntennaPlant& antenna, const Cont
                         {"wind_torque"}, {"tachometer"});
 }
 
-bool feeds_torque_back(const Controller& controller) {
-  return controller.structure.has(LoopPath::pressure) ||
-         controller.structure.has(LoopPath::compliance);
+// Exact: with the controller as it is sampled, its hold and its computation.
+StabilityVerdict sampled_stability(const plant::AntennaPlant& antenna,
+                                   const Controller& controller) {
+  const double sample_time = controller.structure.state_space()->sample_time;
+  const auto loop = sampled_loop(plant::to_state_space(antenna), controller, sample_time);
+  StabilityVerdict verdict;
+  verdict.closed_loop_abscissa =
+      std::log(numerics::spectral_radius(sampled_closed_loop(loop).a)) / sample_time;
+  verdict.rate_loop_abscissa = verdict.closed_loop_abscissa;
+  return verdict;
+}
+
+LyapunovRms sampled_rms(const plant::AntennaPlant& antenna, const Controller& controller,
+                        const plant::ShapingFilter& wind, const SensorNoise& noise) {
+  const double sample_time = controller.structure.state_space()->sample_time;
+  const auto windless = plant::to_state_space(antenna);
+  const auto windy = plant::connect({windless, plant::to_state_space(wind, "wind_torque")},
+                                    {"white_noise", "valve_command"}, windless.outputs);
+  const auto rms_of = [&](const SampledLoopNoise& sources) {
+    return sampled_loop_rms(sampled_loop(windy, controller, sample_time), sources, {"beam"})
+        .over_time[0];
+  };
+  // The density of continuous noise, up to half the sampling rate.
+  const double per_sample = 1.0 / (2.0 * sample_time * noise.bandwidth);
+  const auto variance = [&](double rms) { return rms * rms * per_sample; };
+  LyapunovRms rms;
+  rms.wind = rms_of({.disturbance_intensity = {{"white_noise", 1.0}}, .measurement_variance = {}});
+  SampledLoopNoise measured;
+  measured.measurement_variance = {{"encoder", variance(noise.encoder_rms)},
+                                   {"tachometer", variance(noise.tachometer_rms)}};
+  if (controller.structure.feeds_torque_back()) {
+    measured.measurement_variance["motor_torque"] = variance(noise.torque_rms);
+  }
+  rms.noise = rms_of(measured);
+  rms.total = std::hypot(rms.wind, rms.noise);
+  return rms;
 }
 
 }  // namespace
@@ -87,7 +121,7 @@ plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const Controll
       delay_approximant(delay, delay_order, "valve_demand", "valve_command")};
   std::vector<std::string> inputs{"wind_torque", "encoder_noise", "tachometer_noise",
                                   "rate_disturbance"};
-  if (feeds_torque_back(controller)) {
+  if (controller.structure.feeds_torque_back()) {
     state_space = renamed(state_space, "motor_torque", "measured_torque");
     parts.push_back(adder("motor_torque", "torque_noise", "measured_torque"));
     inputs.emplace_back("torque_noise");
@@ -99,6 +133,7 @@ plant::StateSpace closed_loop(const plant::AntennaPlant& antenna, const Controll
 
 StabilityVerdict stability(const plant::AntennaPlant& antenna, const Controller& controller,
                            double delay, const Eigen::ArrayXd& frequency) {
+  if (controller.structure.state_space() != nullptr) return sampled_stability(antenna, controller);
   StabilityVerdict verdict;
   verdict.rate_loop_abscissa =
       numerics::spectral_abscissa(rate_loop_alone(antenna, controller, delay).a);
@@ -125,6 +160,9 @@ StabilityVerdict stability(const plant::AntennaPlant& antenna, const Controller&
 
 LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const Controller& controller,
                          double delay, const plant::ShapingFilter& wind, const SensorNoise& noise) {
+  if (controller.structure.state_space() != nullptr) {
+    return sampled_rms(antenna, controller, wind, noise);
+  }
   const auto loop = closed_loop(antenna, controller, delay);
   LyapunovRms rms;
   {
@@ -143,7 +181,8 @@ LyapunovRms lyapunov_rms(const plant::AntennaPlant& antenna, const Controller& c
     Eigen::MatrixXd q = Eigen::MatrixXd::Zero(loop.a.rows(), loop.a.rows());
     std::vector<std::pair<const char*, double>> sources{{"encoder_noise", noise.encoder_rms},
                                                         {"tachometer_noise", noise.tachometer_rms}};
-    if (feeds_torque_back(controller)) sources.emplace_back("torque_noise", noise.torque_rms);
+    if (controller.structure.feeds_torque_back())
+      sources.emplace_back("torque_noise", noise.torque_rms);
     for (const auto& [name, value] : sources) {
       const Eigen::VectorXd b = loop.b.col(plant::input_index(loop, name));
       q += value * value / (2.0 * noise.bandwidth) * b * b.transpose();

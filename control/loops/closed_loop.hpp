@@ -34,7 +34,9 @@ struct StabilityVerdict {
 };
 
 /// With the position loop open, the free angle and the position integrator are removed, because
-/// nothing restores them. `frequency`: grid (rad/s) for the residue.
+/// nothing restores them. `frequency`: grid (rad/s) for the residue. A state space: by the exact
+/// sampled loop (sampled_closed_loop), ln(spectral radius)/T, without residue; having no rate loop,
+/// it has one abscissa. `delay` is then unused, here and in lyapunov_rms (sampled_loop_rms).
 StabilityVerdict stability(const plant::AntennaPlant& plant, const Controller& controller,
                            double delay, const Eigen::ArrayXd& frequency);
 

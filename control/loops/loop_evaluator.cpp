@@ -83,6 +83,10 @@ Complex loop_gain(const plant::ResponsePoint& response, double frequency,
   throw InvalidInput("loop_gain: not a loop break");
 }
 
+bool has_break(const Controller& controller, LoopBreak loop_break) {
+  return loop_break == LoopBreak::valve_command || controller.structure.state_space() == nullptr;
+}
+
 double LoopEvaluation::highest_peak(LoopBreak loop_break) const {
   const auto& list = peaks[static_cast<std::size_t>(loop_break)];
   return list.empty() ? 1.0 : list.front().magnitude;
@@ -220,7 +224,9 @@ void LoopEvaluator::State::count_unstable(const Controller& controller,
     both_encirclements.add(values.both_return, lanes);
     left -= lanes;
   }
-  result.unstable_rate_loop = rate_encirclements.unstable();
+  // A state space has no loop to leave closed alone.
+  const bool rate_loop = controller.structure.state_space() == nullptr;
+  result.unstable_rate_loop = rate_loop ? rate_encirclements.unstable() : 0;
   result.unstable_closed_loop = both_encirclements.unstable();
 }
 
@@ -252,7 +258,9 @@ LoopEvaluation LoopEvaluator::State::evaluate(const Controller& controller, bool
   if (with_gradients) sweep_gradients(sweep, result);
   count_unstable(controller, result);
   for (std::size_t b = 0; b < loop_breaks.size(); ++b) {
-    if (breaks_[b]) find_peaks(controller, loop_breaks[b], result.peaks[b]);
+    if (breaks_[b] && has_break(controller, loop_breaks[b])) {
+      find_peaks(controller, loop_breaks[b], result.peaks[b]);
+    }
   }
   return result;
 }

@@ -38,6 +38,8 @@ enum class LoopBreak {
 inline constexpr std::array loop_breaks{LoopBreak::rate_loop_alone, LoopBreak::valve_command,
                                         LoopBreak::position_loop};
 std::string_view to_string(LoopBreak loop_break);
+/// False for the rate loop and the position loop of a state space, which has neither.
+bool has_break(const Controller& controller, LoopBreak loop_break);
 
 /// The open-loop gain at a break at one frequency (rad/s), with exact dead time. Negative feedback
 /// is implied: S = 1/(1 + L).
@@ -87,7 +89,7 @@ struct LoopEvaluation {
   std::array<double, max_gains> effort_log_gradient{};
   std::array<double, max_gains> wind_demand_log_gradient{};
   std::array<double, max_gains> wind_torque_log_gradient{};
-  std::array<PeakList, 3> peaks;  // of |S|, by break
+  std::array<PeakList, 3> peaks;  // of |S|, by break; empty without that loop (has_break)
   /// Closed-loop poles in the right half plane by the encirclements of 1 + L along the grid,
   /// position loop open and closed. This is a fast filter; the stability verdict is that of the
   /// eigenvalues (closed_loop.hpp).

@@ -58,6 +58,7 @@ class LoopEvaluator::State {
   // Data of one controller for a sweep over the frequencies.
   struct Sweep {
     const Controller* controller = nullptr;
+    bool state_space = false;                     // LoopStructure::state_space
     std::array<PlacedBlock, max_gains> blocks{};  // path by path
     std::array<std::size_t, 4> path_end{};
     std::array<std::size_t, max_gains> path_of_gain{};

@@ -95,6 +95,21 @@ struct LoopEvaluator::State::LoopLanes {
   ComplexPart bent_wind, position_wind, pressure_wind, rate_wind, measured, wind;
   ComplexPart demand_by_wind, torque_by_wind;
 
+  // Of the k-th part of eight frequencies, one by one.
+  [[gnu::always_inline]] static inline void fill_from_state_space(const Controller& controller,
+                                                                  const GridPack& grid,
+                                                                  std::size_t k,
+                                                                  Compensators& compensators) {
+    for (std::size_t lane = 0; lane < width; ++lane) {
+      const auto response = compensator_response(controller, grid.frequency[k * width + lane]);
+      const std::array values{response.rate, response.pressure, response.position};
+      for (std::size_t path = 0; path < values.size(); ++path) {
+        compensators[path].re.set(lane, values[path].real());
+        compensators[path].im.set(lane, values[path].imag());
+      }
+    }
+  }
+
   // At the k-th part of eight frequencies.
   template <bool with_gradients>
   [[gnu::always_inline]] inline void fill(const Sweep& sweep, const GridPack& grid, std::size_t k,
@@ -111,6 +126,7 @@ struct LoopEvaluator::State::LoopLanes {
       }
       controller[path] = compensator;
     }
+    if (sweep.state_space) fill_from_state_space(*sweep.controller, grid, k, controller);
     const auto [r, q, p, c] = controller;
     const bool pressure = sweep.present[1], compliance = sweep.present[3];
     rate_part = r * part<width>(grid.tachometer_command, k);
@@ -167,6 +183,10 @@ LoopEvaluator::State::Sweep LoopEvaluator::State::prepare(const Controller& cont
     }
     sweep.path_end[path] = count;
     sweep.present[path] = count > (path > 0 ? sweep.path_end[path - 1] : 0);
+  }
+  sweep.state_space = controller.structure.state_space() != nullptr;
+  if (sweep.state_space) {
+    sweep.present = {true, controller.structure.feeds_torque_back(), true, false};
   }
   return sweep;
 }

@@ -1,7 +1,9 @@
 #include <algorithm>
 
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/plant/antenna/antenna_modal_system.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::control {
 namespace {
@@ -50,6 +52,20 @@ void remove_free_angle(plant::StateSpace& core) {
   core.states.erase(core.states.begin() + bull);
 }
 
+// S = 1/(1 + L) at the valve command of the sampled loop.
+plant::StateSpace sampled_sensitivity(const plant::AntennaPlant& antenna,
+                                      const Controller& controller) {
+  const double sample_time = controller.structure.state_space()->sample_time;
+  plant::StateSpace loop = sampled_open_loop(
+      sampled_loop(plant::to_state_space(antenna), controller, sample_time), "valve_command");
+  // The command acts after a sample: L has no feedthrough.
+  loop = plant::subsystem(loop, {"valve_command"}, {"valve_command_returned"});
+  loop.a -= loop.b * loop.c;
+  loop.c = -loop.c;
+  loop.d.setOnes();
+  return loop;
+}
+
 }  // namespace
 
 plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& antenna,
@@ -64,6 +80,12 @@ plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& antenna,
 std::array<PeakGain, 3> sensitivity_bounds(const plant::AntennaPlant& antenna,
                                            const Controller& controller, double delay,
                                            const PeakGainOptions& options) {
+  if (controller.structure.state_space() != nullptr) {
+    PeakGain none;
+    none.lower = none.upper = 1.0;
+    none.closed = true;
+    return {none, peak_gain(sampled_sensitivity(antenna, controller), options), none};
+  }
   const plant::ModalSystem both = modal_closed_loop(antenna, controller, delay);
   plant::ModalSystem rate = plant::to_modal_system(antenna);
   remove_free_angle(rate.core);

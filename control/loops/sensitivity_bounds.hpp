@@ -21,7 +21,8 @@ plant::ModalSystem modal_closed_loop(const plant::AntennaPlant& plant, const Con
 /// their order. No grid, exact dead time, O(modes) per interval. The method is independent of the
 /// frequency responses used in tuning: it uses poles and residues of the state space of drive and
 /// controller, and modes in angles relative to the bull gear. The result is at least 1, because S
-/// tends to 1 at infinite frequency.
+/// tends to 1 at infinite frequency. A state space has the valve command alone to break: from the
+/// exact sampled loop, up to its Nyquist frequency; 1 stands at the others.
 std::array<PeakGain, 3> sensitivity_bounds(const plant::AntennaPlant& plant,
                                            const Controller& controller, double delay,
                                            const PeakGainOptions& options = {});

@@ -153,7 +153,10 @@ FixedGainValues FixedGainEvaluator::evaluate(const plant::AntennaPlant& plant) {
                          .sensitivity_peaks = {},
                          .stable = panels.stable()};
   for (std::size_t b = 0; b < values.sensitivity_peaks.size(); ++b) {
-    values.sensitivity_peaks.at(b) = state_->highest_peak(plant, b);
+    values.sensitivity_peaks.at(b) =
+        control::has_break(state_->controller, control::loop_breaks.at(b))
+            ? state_->highest_peak(plant, b)
+            : 1.0;
   }
   return values;
 }

@@ -321,7 +321,8 @@ bool FixedGainPanels::stable() const {
     rate.add(values_[i].rate_return, pack_size);
     both.add(values_[i].both_return, pack_size);
   }
-  return rate.unstable() == 0 && both.unstable() == 0;
+  const bool rate_loop = control::has_break(controller_, control::LoopBreak::rate_loop_alone);
+  return (!rate_loop || rate.unstable() == 0) && both.unstable() == 0;
 }
 
 double FixedGainPanels::frequency(std::size_t point) const {

@@ -74,6 +74,10 @@ MonteCarloEvaluator::MonteCarloEvaluator(const MonteCarlo& study)
   if (study.confirm_every < 1) {
     throw InvalidInput("MonteCarlo: expected confirm_every of 1 or more, found 0");
   }
+  if (study.retune && study.controller.gains.empty()) {
+    throw InvalidInput(
+        "MonteCarlo: expected a controller with gains to retune, found a state space");
+  }
   mean_torque_ = plant::mean_wind_torque(study.problem.wind.site, study.problem.wind.mean_speed) /
                  study.problem.gear_ratio;
 }

@@ -155,6 +155,7 @@ void append_margin_ratios(const control::LoopChannels& channels, double delay,
                           std::vector<NormalisedConstraint>& ratios) {
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
     const LoopBreak cut = control::loop_breaks[b];
+    if (!control::has_break(controller, cut)) continue;
     if (const auto& limit = goals.gain_margin[b]) {
       for (const auto& margin : control::smallest_gain_margins(channels, delay, controller, cut)) {
         ratios.push_back(at_least(GoalKind::gain_margin, cut, margin, *limit));

@@ -47,9 +47,9 @@ std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
   NonlinearVerificationOptions options = loops.options;
   options.explain = options.second_integrator = false;
   options.threads = threads;
+  const std::string name = fmt::format("state space, order {}", study.controller.a.rows());
   auto simulated = compare_in_time_domain(
-      mission, problem, fmt::format("state space, order {}", study.controller.a.rows()),
-      study.controller, options);
+      mission, problem, name, control::state_space_controller(name, study.controller), options);
   if (!simulated) return std::nullopt;
   study.simulated = std::move(*simulated);
   study.limit_cycle_free =

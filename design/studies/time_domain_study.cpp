@@ -42,14 +42,14 @@ bool held_with_more_stroke(plant::NonlinearAntenna model, double rate) {
 }
 
 SimulatedLoop loop_of(const Mission& mission, const TrackingProblem& problem,
-                      const control::FeedbackController& controller, double encoder_resolution) {
+                      const control::Controller& controller, double encoder_resolution) {
   auto loop = make_simulated_loop(problem, plant::nonlinear_antenna(mission.antenna), controller);
   loop.encoder_resolution = encoder_resolution * problem.gear_ratio;
   return loop;
 }
 
 SimulatedLoop simulate(const Mission& mission, const TrackingProblem& problem,
-                       const control::FeedbackController& controller, TimeDomainStudy& section) {
+                       const control::Controller& controller, TimeDomainStudy& section) {
   auto loop = loop_of(mission, problem, controller, section.encoder_resolution);
   section.sample_time = loop.sample_time;
   section.feedforward = feedforward_of(loop);
@@ -85,7 +85,7 @@ void count_budgets(const Mission& mission, double wind_speed, Assessment& assess
 }
 
 TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
-                       const control::FeedbackController& controller, TimeDomainStudy section,
+                       const control::Controller& controller, TimeDomainStudy section,
                        int records = SimulatedRmsOptions{}.records) {
   const SimulatedLoop loop = simulate(mission, problem, controller, section);
   const WindResult& wind = section.result.wind;
@@ -156,7 +156,7 @@ Assessment assessment_of(const NamedController& controller, const NonlinearVerif
                          const std::optional<SimulatedRms>& expected, double budget) {
   Assessment assessment;
   assessment.structure = controller.name;
-  assessment.parts = controller.controller.structure.gains().size();
+  assessment.parts = controller.controller.structure.parts();
   assessment.stable = assessment.verified = true;
   assessment.nominal_constraints_met = assessment.member_constraints_met = true;
   assessment.linear_rms = result.wind.predicted_rms;
@@ -249,7 +249,7 @@ std::optional<NonlinearVerification> run_in_time_domain(
 
 std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
-    const control::FeedbackController& controller, const NonlinearVerificationOptions& options) {
+    const control::Controller& controller, const NonlinearVerificationOptions& options) {
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, name, options.seeds.front(), options.threads);
   section.options = options;
@@ -266,7 +266,9 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 bool shows_no_limit_cycle(const Mission& mission, const TrackingProblem& problem,
                           const plant::StateSpace& controller, const LimitCycleRuns& runs) {
   const TimeDomainStudy section = plan(mission, problem, "", 1, 1);
-  const auto loop = loop_of(mission, problem, control::antenna_state_space_controller(controller),
+  const auto loop = loop_of(mission, problem,
+                            control::state_space_controller(
+                                "state space", control::antenna_state_space_controller(controller)),
                             section.encoder_resolution);
   std::vector<double> rates{0.0};
   if (runs.tracking && section.options.tracking_rate != 0.0) {

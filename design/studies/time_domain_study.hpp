@@ -126,7 +126,7 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 /// Simulates any controller, of that name, by those options.
 std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
-    const control::FeedbackController& controller, const NonlinearVerificationOptions& options);
+    const control::Controller& controller, const NonlinearVerificationOptions& options);
 struct LimitCycleRuns {
   /// s after settling: a start whose amplitude at the encoder is then below half of
   /// min_limit_cycle_amplitude counts as free of a limit cycle. The others, and all if there is no

@@ -259,7 +259,7 @@ Assessment assessment_of(const TuningStudy& section, const TunedController& row,
   Assessment result;
   result.structure = row.structure;
   result.purpose = robust ? DesignPurpose::robust : DesignPurpose::nominal;
-  result.parts = row.design.tuning.controller.structure.gains().size();
+  result.parts = row.design.tuning.controller.structure.parts();
   result.stable = row.stable();
   result.verified = row.design.verification.passed;
   result.nominal_constraints_met = row.constraints_met;

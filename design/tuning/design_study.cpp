@@ -33,6 +33,12 @@ std::array<control::Margins, 3> margins_of(TrackingProblem problem,
   const plant::PointResponse response(problem.plant);
   std::array<control::Margins, 3> margins;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    if (!control::has_break(controller, control::loop_breaks[b])) {
+      margins[b].increasing_gain_margin = margins[b].delay_margin =
+          std::numeric_limits<double>::infinity();
+      margins[b].sensitivity.magnitude = 1.0;
+      continue;
+    }
     margins[b] = control::margins(
         [&](double w) {
           return control::loop_gain(response(w), w, controller, problem.delay,
@@ -50,6 +56,7 @@ std::string missed_margin(const TrackingProblem& problem, const control::Control
                           const Constraints& goals) {
   const auto margins = margins_of(problem, controller);
   for (std::size_t b = 0; b < margins.size(); ++b) {
+    if (!control::has_break(controller, control::loop_breaks[b])) continue;
     const std::string_view cut = control::to_string(control::loop_breaks[b]);
     const double gain =
         std::min(margins[b].increasing_gain_margin, 1.0 / margins[b].decreasing_gain_margin);

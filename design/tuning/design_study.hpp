@@ -56,7 +56,8 @@ struct Design {
   double wind_rms = 0.0;
   double noise_rms = 0.0;
   double control_effort = 0.0;  // rad/s
-  /// Stability margins with the loop cut at each of control::loop_breaks.
+  /// Stability margins with the loop cut at each of control::loop_breaks; infinite where the
+  /// controller has no such loop (control::has_break).
   std::array<control::Margins, 3> margins;
 
   /// True if the design meets the constraints and passed its verification.

@@ -2,48 +2,31 @@
 
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
-#include <boresight/design/benchmark/rejection_response.hpp>
 #include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/plant/wind/wind.hpp>
 
 namespace boresight::design {
 
 Eigen::ArrayXd wind_transmission(const TrackingProblem& problem,
-                                 const control::FeedbackController& controller,
+                                 const control::Controller& controller,
                                  const Eigen::ArrayXd& frequency) {
-  if (const auto* loops = std::get_if<control::Controller>(&controller)) {
-    const control::LoopEvaluator evaluator(problem.plant, frequency,
-                                           {.delay = problem.delay,
-                                            .noise = problem.noise,
-                                            .wind_spectrum = Eigen::ArrayXd::Zero(frequency.size()),
-                                            .band = problem.rms_band});
-    return evaluator.wind_transmission(*loops);
-  }
-  control::ControlledAntenna loop(problem.plant, std::get<plant::StateSpace>(controller),
-                                  problem.delay);
-  return frequency.unaryExpr([&](double w) { return std::norm(loop.at(w).boresight_by_wind); });
+  const control::LoopEvaluator evaluator(problem.plant, frequency,
+                                         {.delay = problem.delay,
+                                          .noise = problem.noise,
+                                          .wind_spectrum = Eigen::ArrayXd::Zero(frequency.size()),
+                                          .band = problem.rms_band});
+  return evaluator.wind_transmission(controller);
 }
 
-double predicted_rms(const TrackingProblem& problem,
-                     const control::FeedbackController& controller) {
-  if (const auto* loops = std::get_if<control::Controller>(&controller)) {
-    control::LoopEvaluator evaluator = make_evaluator(problem);
-    return std::sqrt(evaluator.evaluate(*loops, false).boresight_variance());
-  }
-  const RejectionResponse response =
-      rejection_response(problem, std::get<plant::StateSpace>(controller));
-  const Eigen::ArrayXd wind = response.wind_weight * response.boresight_by_wind_square *
-                              motor_wind_spectrum(problem, response.frequency);
-  return std::sqrt(wind.sum() + response.noise_variance);
+double predicted_rms(const TrackingProblem& problem, const control::Controller& controller) {
+  control::LoopEvaluator evaluator = make_evaluator(problem);
+  return std::sqrt(evaluator.evaluate(controller, false).boresight_variance());
 }
 
 double static_boresight_error(const TrackingProblem& problem,
-                              const control::FeedbackController& controller) {
-  const auto* loops = std::get_if<control::Controller>(&controller);
-  control::ControlledAntenna loop(
-      problem.plant,
-      loops != nullptr ? control::to_state_space(*loops) : std::get<plant::StateSpace>(controller),
-      problem.delay);
+                              const control::Controller& controller) {
+  control::ControlledAntenna loop(problem.plant, control::to_state_space(controller),
+                                  problem.delay);
   // Lower frequencies lose digits: the free antenna's angle in a steady torque grows without bound.
   constexpr double far_below = 3e-5;  // rad/s
   const double torque =

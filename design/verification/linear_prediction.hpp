@@ -8,23 +8,23 @@
 namespace boresight::design {
 
 /// What the linear loop of a problem with a controller predicts of a simulation, by frequency
-/// responses: control::LoopEvaluator for loops with gains, rejection_response for a state space.
+/// responses (control::LoopEvaluator).
 
 /// |boresight / wind torque|^2 (rad^2/(N m)^2 at the motor) at frequencies (rad/s, above 0,
 /// rising). @throws as those.
 Eigen::ArrayXd wind_transmission(const TrackingProblem& problem,
-                                 const control::FeedbackController& controller,
+                                 const control::Controller& controller,
                                  const Eigen::ArrayXd& frequency);
 
 /// Boresight rms (rad of motor) in the problem's wind and noise. The loop must be stable, which is
 /// not tested here. @throws as those.
-double predicted_rms(const TrackingProblem& problem, const control::FeedbackController& controller);
+double predicted_rms(const TrackingProblem& problem, const control::Controller& controller);
 
 /// Boresight error (rad at the sky, magnitude) at rest in the problem's mean wind: the static
 /// flexure of the structure, and what the loop's finite static stiffness adds or, with compliance
 /// compensation, takes off. By the response at 3e-5 rad/s, to some 1e-4. @throws as
 /// wind_transmission.
 double static_boresight_error(const TrackingProblem& problem,
-                              const control::FeedbackController& controller);
+                              const control::Controller& controller);
 
 }  // namespace boresight::design

@@ -81,7 +81,7 @@ struct WindResult {
   double linear_rms = 0.0;
   double continuous_rms = 0.0;
   double realisation_error = 0.0;  // realisation error: continuous - predicted
-  double sampling = 0.0;           // linear - continuous
+  double sampling = 0.0;           // linear - continuous; 0 of a state space
   std::vector<InfluenceResult> influences;
   /// Interaction: simulated - linear - sum of the influences' differences. It includes effects that
   /// the nonlinear antenna has beyond the linear plant (lines, offset torque).

@@ -202,7 +202,7 @@ std::string_view to_string(RunStatus status) {
 
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
-                                  const control::FeedbackController& controller) {
+                                  const control::Controller& controller) {
   SimulatedLoop loop;
   loop.antenna = antenna;
   loop.linear = problem.plant;
@@ -323,7 +323,7 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
       course.wind_torque;
   plan.controller = &controller;
   plan.computation_delay = loop.sample_time;
-  plan.sensors = sensors(loop, control::feeds_torque_back(loop.controller), loop.sample_time,
+  plan.sensors = sensors(loop, loop.controller.structure.feeds_torque_back(), loop.sample_time,
                          options, !contains(options.without, Influence::quantisation));
   plan.seed = options.seed;
   plan.integrator = options.integrator;
@@ -370,7 +370,7 @@ LoopRun run_linear_loop(const SimulatedLoop& loop, const ReferenceTrajectory& co
   plan.controller = &controller;
   plan.computation_delay = delay;
   plan.sensors =
-      sensors(loop, control::feeds_torque_back(loop.controller), sample_time, options, false);
+      sensors(loop, loop.controller.structure.feeds_torque_back(), sample_time, options, false);
   plan.seed = options.seed;
   plan.integrator = options.integrator;
   plan.relative_tolerance = options.relative_tolerance;

@@ -25,7 +25,7 @@ struct SimulatedLoop {
   /// The linear plant of the design. Its viscous friction replaces the friction curve when that is
   /// switched off, and feedforward is computed from it.
   plant::AntennaPlant linear;
-  control::FeedbackController controller;
+  control::Controller controller;
   double gear_ratio = 1.0;
   double sample_time = 0.02;  // s
   /// Densities, as in the linear design. Rounding to the steps below is part of it: a run adds the
@@ -45,7 +45,7 @@ struct SimulatedLoop {
 /// Without converter steps.
 SimulatedLoop make_simulated_loop(const TrackingProblem& problem,
                                   const plant::NonlinearAntenna& antenna,
-                                  const control::FeedbackController& controller);
+                                  const control::Controller& controller);
 
 /// Effects that the linear design neglects; each can be switched off separately:
 ///   friction       the curve and its bristles; off: the linear plant's viscous friction

@@ -58,6 +58,11 @@ std::string digest_of(std::string_view version, std::string_view input,
                   study.confirm_every, study.controller.structure.name());
   const auto add = [&](double number) { fmt::format_to(std::back_inserter(all), " {}", number); };
   for (const double gain : study.controller.gains) add(gain);
+  if (const auto* system = study.controller.structure.state_space()) {
+    for (const auto* matrix : {&system->a, &system->b, &system->c, &system->d}) {
+      for (const double element : matrix->reshaped()) add(element);
+    }
+  }
   for (std::uint64_t index = 0; index < 8; ++index) {
     for (const double value : distribution.draw(seed, index).values) add(value);
   }

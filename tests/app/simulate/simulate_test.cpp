@@ -11,8 +11,10 @@
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
 #include <boresight/app/simulate/simulated_tests.hpp>
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/io/case/case_friction.hpp>
 #include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -116,6 +118,33 @@ TEST(SimulateCommand, RefusesWhatItCannotRun) {
       run_program({"simulate", path, "slosh", "--folder", folder.write("file", "") + "/inside"});
   EXPECT_EQ(nowhere.exit_code, 2);
   EXPECT_THAT(nowhere.errors, HasSubstr("expected a folder"));
+}
+
+// A controller of other tools, which a file states.
+TEST(SimulateCommand, RunsAStateSpaceOfAFile) {
+  const ScratchFolder folder;
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  io::write_controller(folder.file("mine.mat"), control::to_state_space(loops));
+  const std::string path = case_path("dss14-70m");
+  const auto run = run_program({"simulate", path, "slew", "--controller", folder.file("mine.mat"),
+                                "--details", "--folder", folder.file("a")});
+  ASSERT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(run.output, AllOf(HasSubstr("by state space, order 2, "),
+                                HasSubstr("sampled every 0.02 s by Tustin's method")));
+  const auto both = run_program({"simulate", path, "slew", "--controller", folder.file("mine.mat"),
+                                 "--gains", "case", "--folder", folder.file("b")});
+  EXPECT_EQ(both.exit_code, 2);
+  EXPECT_THAT(both.errors, HasSubstr("expected either --controller or --gains"));
+
+  plant::StateSpace loud = control::to_state_space(loops);
+  loud.c *= 50.0;
+  loud.d *= 50.0;
+  io::write_controller(folder.file("loud.json"), loud);
+  const auto unstable = run_program({"montecarlo", path, "--controller", folder.file("loud.json")});
+  EXPECT_EQ(unstable.exit_code, 3);
+  EXPECT_THAT(unstable.errors, HasSubstr("unstable on the nominal antenna; it is stable with its "
+                                         "output times 0."));
 }
 
 TEST(SimulateCommand, InterruptLeavesAMarkedRecord) {

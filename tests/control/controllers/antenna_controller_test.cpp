@@ -225,9 +225,10 @@ Controller leaky_controller() {
   return {LoopStructure::named("FULL+L+C"), {3.0, 8.0, 40.0, 0.5, 30.0, 5.0, 1.5, 15.0, 0.01, 0.3}};
 }
 
-plant::StateSpace as_state_space(const Controller& controller) {
-  return plant::subsystem(sampled_controller(controller, sample_time),
-                          {"motor_torque", "encoder", "tachometer"}, {"valve_demand"});
+Controller as_state_space(const Controller& controller) {
+  return state_space_controller(
+      "sampled", plant::subsystem(sampled_controller(controller, sample_time),
+                                  {"motor_torque", "encoder", "tachometer"}, {"valve_demand"}));
 }
 
 // The loops and the same controller as a state space: in motion too, as the commanded rate is taken
@@ -267,9 +268,7 @@ TEST(AntennaController, AStateSpaceSeesTheTorqueBeyondThatOfItsMotion) {
 
 TEST(PlantFeedforward, HasTheTorqueOfTheMotion) {
   const auto plant = reference::antenna();
-  for (const FeedbackController& controller :
-       {FeedbackController(pi_controller()),
-        FeedbackController(as_state_space(leaky_controller()))}) {
+  for (const Controller& controller : {pi_controller(), as_state_space(leaky_controller())}) {
     const auto forward = plant_feedforward(plant, controller, 0.03);
     EXPECT_EQ(forward.acceleration_to_motor_torque, plant::reflected_inertia(plant));
     EXPECT_EQ(forward.rate_to_motor_torque, plant.drive.viscous_friction);
@@ -349,8 +348,7 @@ TEST(AntennaController, OpensTheValveFurtherUnderLoad) {
 TEST(AntennaController, TakesOverASteadyMotionWithItsFeedforward) {
   const auto plant = reference::antenna();
   AntennaControllerOptions options;
-  for (const FeedbackController& one : {FeedbackController(full_controller()),
-                                        FeedbackController(as_state_space(leaky_controller()))}) {
+  for (const Controller& one : {full_controller(), as_state_space(leaky_controller())}) {
     options.feedforward =
         with_friction(plant_feedforward(plant, one, 0.03), plant, friction_curve(), 0.8);
     options.feedforward.supply_torque = 300.0;
@@ -366,21 +364,15 @@ TEST(AntennaController, TakesOverASteadyMotionWithItsFeedforward) {
 }
 
 TEST(AntennaController, RefusesAStateSpaceThatItCannotRun) {
-  const auto refused = [](const plant::StateSpace& controller, const char* why) {
-    EXPECT_THAT(reference::Call([&] { AntennaController(controller, sample_time); }),
+  const auto refused = [](const Controller& controller, double period, const char* why) {
+    EXPECT_THAT(reference::Call([&] { AntennaController(controller, period); }),
                 testing::ThrowsMessage<InvalidInput>(HasSubstr(why)));
   };
-  const auto good = as_state_space(leaky_controller());
-  auto other = good;
-  other.sample_time = 0.01;
-  refused(other, "sampled every 0.02 s, found 0.01 s");
-  refused(plant::renamed(good, {{"encoder", "resolver"}}), "expected inputs encoder");
-  refused(plant::renamed(good, {{"valve_demand", "rate"}}), "the output valve_demand");
-  refused(plant::subsystem(good, {"tachometer", "motor_torque"}, {"valve_demand"}),
-          "expected inputs encoder");
-  refused(plant::subsystem(sampled_controller(pi_controller(), sample_time),
-                           {"tachometer", "encoder"}, {"valve_demand"}),
-          "stable by itself");
+  refused(as_state_space(leaky_controller()), 0.01, "a sample time of 0.02 s, that of sampled");
+  refused(state_space_controller("PI",
+                                 plant::subsystem(sampled_controller(pi_controller(), sample_time),
+                                                  {"tachometer", "encoder"}, {"valve_demand"})),
+          sample_time, "stable by itself");
 }
 
 }  // namespace

@@ -5,10 +5,12 @@
 
 #include "design/reference_problem.hpp"
 #include "refused_call.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/ensembles/fixed_gain_evaluator.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/vector_clones.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight {
 namespace {
@@ -50,6 +52,14 @@ control::Controller full_controller() {
   return controller;
 }
 
+control::Controller state_space_controller() {
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  return control::state_space_controller(
+      "sampled", plant::subsystem(control::sampled_controller(loops, 0.02),
+                                  {"tachometer", "encoder"}, {"valve_demand"}));
+}
+
 TEST(FixedGainEvaluator, HasTheSameBitsInRegistersOfEveryWidth) {
   const auto problem = reference::tracking_problem();
   design::Constraints goals;
@@ -72,7 +82,8 @@ TEST(FixedGainEvaluator, AgreesWithTheTunersEvaluator) {
   const design::WindTable wind(problem);
   design::Constraints goals;
   goals.gust_demand = 100.0;
-  for (const auto& controller : {reference::cautious_gains(), full_controller()}) {
+  for (const auto& controller :
+       {reference::cautious_gains(), full_controller(), state_space_controller()}) {
     FixedGainEvaluator held(problem, controller, goals);
     reference::RandomNumbers random(5);
     for (int i = 0; i < 60; ++i) {

@@ -130,7 +130,7 @@ TEST(IntegratorAgreement, RunsWithoutAUsableEndAreStatedResults) {
   EXPECT_TRUE(std::isnan(failed.ratio()));
   EXPECT_FALSE(agree(failed));
   // Nothing to compare where the first run is lost already.
-  std::get<control::Controller>(loop.controller).gains[4] = 5.0;  // the position integral: unstable
+  loop.controller.gains[4] = 5.0;  // the position integral: unstable
   const auto lost = integrator_agreement(loop, windy_course(loop, 60.0), settling_for(1.0));
   EXPECT_EQ(lost.status, RunStatus::lost);
   EXPECT_EQ(lost.cvodes_steps, 0);

@@ -18,9 +18,10 @@ control::Controller leaky_controller() {
   return {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
 }
 
-plant::StateSpace sampled(const control::Controller& controller) {
-  return plant::subsystem(control::sampled_controller(controller, sample_time),
-                          {"tachometer", "encoder"}, {"valve_demand"});
+control::Controller sampled(const control::Controller& controller) {
+  return control::state_space_controller(
+      "sampled", plant::subsystem(control::sampled_controller(controller, sample_time),
+                                  {"tachometer", "encoder"}, {"valve_demand"}));
 }
 
 TEST(LinearPrediction, IsTheSameOfLoopsAndOfTheirSampledForm) {
@@ -45,8 +46,8 @@ TEST(LinearPrediction, OfAStateSpaceIsThatOfItsCovariance) {
   const SampledSetting setting("own", problem.plant, fit_wind_filter(problem), problem.noise,
                                sample_time, Eigen::ArrayXd::LinSpaced(30, 0.1, 150.0));
   const auto controller = sampled(leaky_controller());
-  const auto evaluated =
-      setting.evaluate(plant::renamed(controller, {{"valve_demand", "valve_command"}}));
+  const auto evaluated = setting.evaluate(
+      plant::renamed(*controller.structure.state_space(), {{"valve_demand", "valve_command"}}));
   EXPECT_NEAR(predicted_rms(problem, controller) / evaluated.boresight_rms, 1.0, 1e-3);
 }
 

@@ -7,10 +7,12 @@
 #include "design/reference_problem.hpp"
 #include "reference_nonlinear_antenna.hpp"
 #include "refused_call.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 #include <boresight/plant/nonlinear/operating_point.hpp>
 
 namespace boresight::design {
@@ -315,16 +317,23 @@ TEST(NonlinearVerification, RunsWithoutAUsableEndAreStatedResults) {
   EXPECT_FALSE(weak.slew->achievable_limits);
 }
 
-TEST(NonlinearVerification, ExplainsLoopsOnly) {
+TEST(NonlinearVerification, SamplingIsNoInfluenceOnAStateSpace) {
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
   auto loop = reference_loop();
-  loop.controller = plant::static_gain(Eigen::RowVector2d(-0.2, -1.0), {"tachometer", "encoder"},
-                                       {"valve_demand"});
-  std::get<plant::StateSpace>(loop.controller).sample_time = loop.sample_time;
   auto wanted = options();
   wanted.explain = true;
-  EXPECT_THAT(
-      reference::Call([&] { verify_in_time(reference::tracking_problem(), loop, wanted); }),
-      testing::ThrowsMessage<InvalidInput>(HasSubstr("expected loops with gains to explain")));
+  loop.controller = loops;
+  const auto expected = verify_in_time(reference::tracking_problem(), loop, wanted).wind;
+  loop.controller = control::state_space_controller(
+      "sampled", plant::subsystem(control::sampled_controller(loops, loop.sample_time),
+                                  {"tachometer", "encoder"}, {"valve_demand"}));
+  const auto found = verify_in_time(reference::tracking_problem(), loop, wanted).wind;
+  EXPECT_EQ(found.sampling, 0.0);
+  EXPECT_NE(expected.sampling, 0.0);
+  EXPECT_NEAR(found.linear_rms / expected.linear_rms, 1.0, 1e-6);
+  EXPECT_NEAR(found.predicted_rms / expected.predicted_rms, 1.0, 1e-3);
+  EXPECT_EQ(found.influences.size(), expected.influences.size());
 }
 
 TEST(NonlinearVerification, AllowsALimitCycleWithinTheRmsOfASine) {

@@ -129,8 +129,9 @@ TEST(SimulatedLoop, RunsAStateSpaceAsTheLoopsThatItIsOf) {
                                   {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
   const auto loop = reference_loop(loops);
   auto same = loop;
-  same.controller = plant::subsystem(control::sampled_controller(loops, loop.sample_time),
-                                     {"tachometer", "encoder"}, {"valve_demand"});
+  same.controller = control::state_space_controller(
+      "sampled", plant::subsystem(control::sampled_controller(loops, loop.sample_time),
+                                  {"tachometer", "encoder"}, {"valve_demand"}));
   const auto course = windy_course(loop, 30.0, 2.0, 1.0);
   const LoopRun expected = run_loop(loop, course), found = run_loop(same, course);
   ASSERT_EQ(expected.status, RunStatus::complete) << expected.message;

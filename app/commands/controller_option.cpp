@@ -1,0 +1,24 @@
+#include <CLI/CLI.hpp>
+
+#include <boresight/app/commands/controller_option.hpp>
+
+namespace boresight::app {
+
+void add_controller(CLI::App& command, const std::string& subject, ControllerOptions& options) {
+  command
+      .add_option("--gains", options.gains,
+                  subject +
+                      ": 'tuned' (as `boresight tune` recommends, tuned now), 'case' (present "
+                      "gains of the case), or a report of tune or redesign in JSON")
+      ->capture_default_str();
+  command.add_option("--structure", options.structure,
+                     "its loop structure, as for `boresight tune` (default: any)");
+  command.add_option("--controller", options.controller_path,
+                     "any linear controller as state space, MAT (version 5) or JSON: see "
+                     "docs/benchmark-protocol.md");
+  command.add_option("--part", options.part,
+                     "state space to use from a file of several (--mat or --json of model, "
+                     "redesign, tune), such as state_space_controller");
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,103 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "control/reference_loop.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
+#include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/control/loops/sensitivity_bounds.hpp>
+#include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
+
+// A state space in the loop, by independent methods: the evaluator's frequency response, the exact
+// sampled loop, and the loops that it is the sampled form of.
+
+namespace boresight::control {
+namespace {
+
+constexpr double sample_time = 0.02;
+
+Controller loops() {
+  return {LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+}
+
+Controller states(double factor = 1.0) {
+  plant::StateSpace system = plant::subsystem(sampled_controller(loops(), sample_time),
+                                              {"tachometer", "encoder"}, {"valve_demand"});
+  system.c *= factor;
+  system.d *= factor;
+  return state_space_controller("states", system);
+}
+
+TEST(StateSpaceLoop, HasTheVariancesOfItsLoops) {
+  auto evaluator = reference::loop_evaluator(reference::antenna());
+  const auto expected = evaluator.evaluate(loops(), false);
+  const auto found = evaluator.evaluate(states(), true);
+  ASSERT_TRUE(expected.stable());
+  EXPECT_TRUE(found.stable());
+  EXPECT_NEAR(found.wind_variance / expected.wind_variance, 1.0, 2e-3);
+  EXPECT_NEAR(found.noise_variance / expected.noise_variance, 1.0, 0.02);
+}
+
+TEST(StateSpaceLoop, IsBrokenAtTheValveCommandAlone) {
+  const auto plant = reference::antenna();
+  auto evaluator = reference::loop_evaluator(plant);
+  const auto evaluation = evaluator.evaluate(states(), false);
+  const auto bounds = sensitivity_bounds(plant, states(), reference::delay);
+  for (const LoopBreak cut : loop_breaks) {
+    const auto b = static_cast<std::size_t>(cut);
+    if (cut == LoopBreak::valve_command) {
+      EXPECT_TRUE(has_break(states(), cut));
+      EXPECT_GT(bounds.at(b).lower, 1.05);
+      EXPECT_NEAR(bounds.at(b).upper / bounds.at(b).lower, 1.0, 1e-6);
+      EXPECT_NEAR(evaluation.highest_peak(cut) / bounds.at(b).lower, 1.0, 5e-3);
+    } else {
+      EXPECT_FALSE(has_break(states(), cut));
+      EXPECT_TRUE(has_break(loops(), cut));
+      EXPECT_EQ(evaluation.highest_peak(cut), 1.0);
+      EXPECT_EQ(bounds.at(b).upper, 1.0);
+    }
+  }
+}
+
+// The bound of the exact loop against its own response, aliases and all.
+TEST(StateSpaceLoop, PeakIsThatOfTheSampledResponse) {
+  const auto plant = reference::antenna();
+  const auto bound = sensitivity_bounds(plant, states(), reference::delay)[1];
+  ControlledAntenna antenna(plant, *states().structure.state_space(), 0.0);
+  const auto sensitivity = [&](double w) { return 1.0 / std::abs(1.0 + antenna.at(w).loop_gain[1]); };
+  EXPECT_NEAR(sensitivity(bound.frequency) / bound.lower, 1.0, 1e-6);
+  for (double w = 0.01; w < 150.0; w *= 1.01) EXPECT_LE(sensitivity(w), bound.upper * (1.0 + 1e-9));
+}
+
+TEST(StateSpaceLoop, StabilityIsThatOfTheSampledLoop) {
+  const auto plant = reference::antenna();
+  const Eigen::ArrayXd grid = Eigen::ArrayXd::LinSpaced(200, -5.0, 5.0).exp();
+  const auto expected = stability(plant, loops(), reference::delay, grid);
+  const auto found = stability(plant, states(), reference::delay, grid);
+  EXPECT_TRUE(found.stable());
+  EXPECT_NEAR(found.closed_loop_abscissa / expected.closed_loop_abscissa, 1.0, 0.02);
+  // By the encirclements of the one and the eigenvalues of the other.
+  auto evaluator = reference::loop_evaluator(plant);
+  int stable_ones = 0;
+  for (double factor = 0.25; factor < 40.0; factor *= 1.3) {
+    const bool stable = stability(plant, states(factor), reference::delay, grid).stable();
+    EXPECT_EQ(evaluator.evaluate(states(factor), false).stable(), stable) << factor;
+    stable_ones += static_cast<int>(stable);
+  }
+  EXPECT_GT(stable_ones, 2);
+  EXPECT_LT(stable_ones, 18);
+}
+
+TEST(StateSpaceLoop, RmsOfTheCovarianceIsThatOfTheSpectrum) {
+  const auto plant = reference::antenna();
+  auto noise = reference::sensor_noise();
+  const auto filter = reference::wind_filter(8);
+  const auto expected = lyapunov_rms(plant, loops(), reference::delay, filter, noise);
+  const auto found = lyapunov_rms(plant, states(), reference::delay, filter, noise);
+  EXPECT_NEAR(found.wind / expected.wind, 1.0, 2e-3);
+  EXPECT_NEAR(found.noise / expected.noise, 1.0, 0.02);
+}
+
+}  // namespace
+}  // namespace boresight::control

@@ -43,7 +43,7 @@ const open = async (name, options = {}) => {
   page.on("pageerror", (error) => troubles.push(error.message));
   page.on("request", (request) => { if (!/^(file|data):/.test(request.url())) troubles.push(`asks for ${request.url()}`); });
   // Beside other tests a page of some megabytes takes a while.
-  await page.goto(`file://${made[name].page}`, { timeout: 120_000 });
+  await page.goto(`file://${made[name].page}`, { timeout: 300_000 });
   return { page, troubles, close: () => context.close() };
 };
 

@@ -16,8 +16,6 @@ if(NOT CMAKE_BUILD_TYPE STREQUAL Sanitize)
   boresight_python_test(readme readme_test.py)
   boresight_python_test(program program_test.py)
   boresight_python_test(reports reports_test.py)
-  # The longest begins first.
-  set_tests_properties(reports PROPERTIES COST 1000)
   boresight_python_test(commission_schema commission_schema_test.py)
   boresight_python_test(commission_doc commission_doc_test.py)
   boresight_python_test(evaluate_doc evaluate_doc_test.py)
@@ -57,6 +55,16 @@ if(NOT CMAKE_BUILD_TYPE STREQUAL Sanitize)
   else()
     message(STATUS "Report pages are not tested: node, chromium or web/node_modules is missing")
   endif()
+  # The longest begin first, as seconds one beside the other: else one of them ends alone.
+  foreach(test_and_cost page:1000 user_docs:900 reports:400 evaluate_doc:350 readme:220
+      montecarlo:150 simulation_schema:100)
+    string(REPLACE ":" ";" test_and_cost ${test_and_cost})
+    list(GET test_and_cost 0 test)
+    list(GET test_and_cost 1 cost)
+    if(TEST ${test})
+      set_tests_properties(${test} PROPERTIES COST ${cost})
+    endif()
+  endforeach()
 endif()
 
 # The Python module, where it is built.

@@ -27,9 +27,9 @@ class SensorResponse {
 
  private:
   double sample_time_ = 0.0;
-  Eigen::MatrixXcd schur_;              // upper triangular, of A - I
-  Eigen::RowVectorXcd output_;          // C U
-  Eigen::MatrixXcd input_;              // U^H B, by sensor
+  Eigen::MatrixXcd schur_;               // upper triangular, of A - I
+  Eigen::RowVectorXcd output_;           // C U
+  Eigen::MatrixXcd input_;               // U^H B, by sensor
   std::array<double, 3> feedthrough_{};  // by sensor
 };
 

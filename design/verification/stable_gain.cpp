@@ -8,7 +8,8 @@ std::optional<double> largest_stable_factor(const TrackingProblem& problem,
                                             const control::Controller& controller) {
   const plant::StateSpace* system = controller.structure.state_space();
   if (system == nullptr) {
-    throw InvalidInput("largest_stable_factor: expected a state space, found a controller of gains");
+    throw InvalidInput(
+        "largest_stable_factor: expected a state space, found a controller of gains");
   }
   const auto stable = [&](double factor) {
     plant::StateSpace scaled = *system;

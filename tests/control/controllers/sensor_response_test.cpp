@@ -64,8 +64,8 @@ TEST(SensorResponse, GivesTheCompensatorsOfTheLoopsThatItIsOf) {
     const double hold = std::sin(half) / half;
     close(found.rate, hold * expected.rate);
     close(found.position * found.rate, hold * expected.rate * expected.position);
-    close(found.pressure, hold * (expected.pressure -
-                                  expected.rate * expected.position * expected.compliance));
+    close(found.pressure,
+          hold * (expected.pressure - expected.rate * expected.position * expected.compliance));
     EXPECT_EQ(found.compliance, 0.0);
   }
 }

@@ -65,7 +65,9 @@ TEST(StateSpaceLoop, PeakIsThatOfTheSampledResponse) {
   const auto plant = reference::antenna();
   const auto bound = sensitivity_bounds(plant, states(), reference::delay)[1];
   ControlledAntenna antenna(plant, *states().structure.state_space(), 0.0);
-  const auto sensitivity = [&](double w) { return 1.0 / std::abs(1.0 + antenna.at(w).loop_gain[1]); };
+  const auto sensitivity = [&](double w) {
+    return 1.0 / std::abs(1.0 + antenna.at(w).loop_gain[1]);
+  };
   EXPECT_NEAR(sensitivity(bound.frequency) / bound.lower, 1.0, 1e-6);
   for (double w = 0.01; w < 150.0; w *= 1.01) EXPECT_LE(sensitivity(w), bound.upper * (1.0 + 1e-9));
 }

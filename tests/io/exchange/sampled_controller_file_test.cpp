@@ -30,8 +30,8 @@ class SampledControllerFileTest : public testing::Test {
   std::string path() const { return folder_.file("k.json"); }
   void refused(const plant::StateSpace& system, const char* why) const {
     EXPECT_THAT(reference::Call([&] { read(system); }),
-                testing::ThrowsMessage<InvalidInput>(testing::AllOf(HasSubstr("k.json: expected"),
-                                                                    HasSubstr(why))));
+                testing::ThrowsMessage<InvalidInput>(
+                    testing::AllOf(HasSubstr("k.json: expected"), HasSubstr(why))));
   }
 
  private:
@@ -74,8 +74,9 @@ TEST_F(SampledControllerFileTest, RefusesWhatTheAntennasComputerCannotRun) {
           "reads tachometer and encoder, found one that reads encoder");
   sampled.sample_time = 0.01;
   refused(sampled, "0.02 s ([controller] delay over 1.5), found 0.01 s");
-  refused(control::to_state_space({control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}}),
-          "stable by itself, found a pole of magnitude 1");
+  refused(
+      control::to_state_space({control::LoopStructure::pi_with_lag(), {0.2, 0.8, 6.0, 0.2, 0.02}}),
+      "stable by itself, found a pole of magnitude 1");
 }
 
 }  // namespace

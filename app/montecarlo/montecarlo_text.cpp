@@ -160,7 +160,10 @@ Document plants_part(const MonteCarloSection& section, const std::vector<Notable
     std::vector<std::string> row{fmt::format("{}", plant.index)};
     for (const auto input : section.inputs) row.push_back(fmt::format("{:.4f}", plant.draw[input]));
     row.push_back(fixed(plant.outcome.boresight_rms / millidegree, 4));
-    for (const double peak : plant.outcome.sensitivity_peaks) row.push_back(fixed(peak, 3));
+    for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+      const bool cut = control::has_break(section.controller, control::loop_breaks.at(b));
+      row.push_back(cut ? fixed(plant.outcome.sensitivity_peaks.at(b), 3) : "-");
+    }
     row.push_back(fixed(plant.outcome.control_effort, 3));
     rows.push_back(std::move(row));
   }
@@ -179,12 +182,17 @@ Document document_of(const MonteCarloSection& section) {
   }
   text += lead(decision(section));
   text += heading("Controller and plants");
-  text += wrapped(fmt::format("{}: {}.", section.structure, section.controller_source), "  ");
-  Rows gains{{"gain", "value"}};
-  for (std::size_t i = 0; i < section.gains.size(); ++i) {
-    gains.push_back({section.controller.structure.gains()[i].name, section.gains[i]});
+  Document controller =
+      wrapped(fmt::format("{}: {}.", section.structure, section.controller_source), "  ");
+  if (section.gains.empty()) {
+    text += essential(std::move(controller));
+  } else {
+    Rows gains{{"gain", "value"}};
+    for (std::size_t i = 0; i < section.gains.size(); ++i) {
+      gains.push_back({section.controller.structure.gains()[i].name, section.gains[i]});
+    }
+    text += std::move(controller) + essential(table(gains, "ll"));
   }
-  text += essential(table(gains, "ll"));
   std::vector<std::string_view> names;
   for (const auto input : section.inputs) names.push_back(to_string(input));
   text += wrapped(fmt::format("{} plants, {}: {}.", section.plants, section.distribution,

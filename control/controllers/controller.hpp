@@ -37,8 +37,8 @@ struct CompensatorResponse {
   std::complex<double> compliance;  // C, rad per N m; 0 where absent
   std::array<std::complex<double>, max_gains> by_gain{};
 };
-/// Those of a state space as LoopStructure::of_state_space has it, with P = 1/R times its response
-/// to the encoder and without C.
+/// Of a state space (LoopStructure::of_state_space): R and Q are its responses to tachometer and
+/// torque and R P that to the encoder, each times -1; C is 0.
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
 
 /// State space of the controller. Inputs: tachometer (rad/s), encoder (rad), motor_torque (N m;

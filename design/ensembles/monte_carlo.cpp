@@ -68,6 +68,16 @@ std::vector<std::string> goal_names(const Constraints& goals) {
   return names;
 }
 
+std::vector<bool> goals_applied(const Constraints& goals, const control::Controller& controller) {
+  std::vector<bool> applied;
+  for (const auto& [kind, loop_break] : asked_for(goals)) {
+    // The bandwidth of a state space is that of its loop through the encoder.
+    applied.push_back(!loop_break || kind == GoalKind::bandwidth ||
+                      control::has_break(controller, *loop_break));
+  }
+  return applied;
+}
+
 MonteCarloEvaluator::MonteCarloEvaluator(const MonteCarlo& study)
     : study_(study), fixed_gain_(study.problem, study.controller, study.goals, study.fixed_gain) {
   validate(study.goals);

@@ -44,6 +44,9 @@ static_assert(sizeof(PlantOutcome) == 10 * sizeof(double));
 
 /// Names of the constraints, in the order of PlantOutcome::violated_constraints.
 std::vector<std::string> goal_names(const Constraints& goals);
+/// In their order: false for a constraint on a loop that the controller does not have
+/// (control::has_break).
+std::vector<bool> goals_applied(const Constraints& goals, const control::Controller& controller);
 
 /// A study of one controller, evaluated with fixed gains, on many plants.
 struct MonteCarlo {

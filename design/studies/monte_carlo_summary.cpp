@@ -105,9 +105,12 @@ void summarise_losses(const Evaluated& evaluated, MonteCarloSummary& section) {
   }
 }
 
-void count_goals(const Evaluated& evaluated, MonteCarloSummary& section) {
+void count_goals(const Evaluated& evaluated, const control::Controller& controller,
+                 MonteCarloSummary& section) {
   const auto names = goal_names(section.goals);
+  const auto applied = goals_applied(section.goals, controller);
   for (std::size_t k = 0; k < names.size(); ++k) {
+    if (!applied[k]) continue;
     const auto hits = evaluated.count([&](const PlantOutcome& one) {
       return one.stable() && ((one.violated_constraints >> k) & 1U) != 0;
     });
@@ -192,7 +195,7 @@ MonteCarloSummary summarise(const MonteCarloRun& run, const Mission& mission,
   section.confirm_every = study.confirm_every;
   count_standings(evaluated, section);
   summarise_losses(evaluated, section);
-  count_goals(evaluated, section);
+  count_goals(evaluated, study.controller, section);
   correlate(evaluated, section);
   find_worst(evaluated, section);
   if (study.retune) summarise_retuned(evaluated, section);

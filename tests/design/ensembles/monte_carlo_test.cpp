@@ -6,11 +6,13 @@
 
 #include "design/reference_problem.hpp"
 #include "refused_call.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight {
 namespace {
@@ -132,6 +134,25 @@ TEST(MonteCarlo, ConfirmsASampleByEigenvalues) {
         << index;
     EXPECT_EQ(outcome.contradicted, 0U);
   }
+}
+
+TEST(MonteCarlo, OfAStateSpaceCountsItsOneLoopAndRetunesNothing) {
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  MonteCarlo states = study(4);
+  states.controller = control::state_space_controller(
+      "sampled", plant::subsystem(control::sampled_controller(loops, 0.02),
+                                  {"tachometer", "encoder"}, {"valve_demand"}));
+  EXPECT_THAT(design::goals_applied(states.goals, states.controller),
+              testing::ElementsAre(false, true, false, true));
+  EXPECT_THAT(design::goals_applied(states.goals, loops), testing::Each(true));
+  states.goals.sensitivity_peak = {1.01, 3.0, 1.01};
+  const auto outcome = design::MonteCarloEvaluator(states).evaluate(0);
+  EXPECT_TRUE(outcome.stable());
+  EXPECT_EQ(outcome.violated_constraints & 0b101U, 0U);
+  EXPECT_GT(outcome.sensitivity_peaks[1], 1.01);
+  states.retune = true;
+  EXPECT_THROW(design::MonteCarloEvaluator{states}, InvalidInput);
 }
 
 TEST(MonteCarlo, TellsWhichGoalsBreak) {

@@ -61,6 +61,9 @@ ChosenController present_controller(const io::Case& antenna, const std::string& 
 std::optional<ChosenController> named_controller(const io::Case& antenna,
                                                  const ControllerOptions& options) {
   if (!options.controller_path.empty()) return state_space_of(antenna, options);
+  if (!options.part.empty()) {
+    throw InvalidInput("--part: expected --controller with the file that it is of, found none");
+  }
   if (options.gains == "tuned") return std::nullopt;
   if (options.gains == "case") return present_controller(antenna, options.structure);
   auto reported = io::controller_of_report(antenna, options.gains, options.structure);

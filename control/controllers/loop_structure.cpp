@@ -199,6 +199,10 @@ LoopStructure LoopStructure::of_state_space(std::string name, const plant::State
                        "and the output valve_demand, found {} -> {}",
                        fmt::join(controller.inputs, ", "), fmt::join(controller.outputs, ", ")));
   }
+  const Eigen::Index tachometer = plant::input_index(controller, sensor_names[0]);
+  if (controller.b.col(tachometer).isZero(0.0) && controller.d.col(tachometer).isZero(0.0)) {
+    refuse(name, "expected a controller that answers the tachometer, found a zero column");
+  }
   LoopStructure structure;
   structure.definition_ = std::make_shared<const Definition>(
       Definition{std::move(name), {}, {}, controller, SensorResponse(controller)});
@@ -364,8 +368,8 @@ bool LoopStructure::operator==(const LoopStructure& other) const {
   const plant::StateSpace* another = other.state_space();
   if (one == nullptr || another == nullptr) return one == another && name() == other.name();
   return one->sample_time == another->sample_time && one->inputs == another->inputs &&
-         one->a == another->a && one->b == another->b && one->c == another->c &&
-         one->d == another->d;
+         one->a.rows() == another->a.rows() && one->a == another->a && one->b == another->b &&
+         one->c == another->c && one->d == another->d;
 }
 
 std::string_view to_string(const LoopStructure& structure) {

@@ -83,6 +83,14 @@ TEST(LoopStructure, OfAStateSpaceHasPartsButNoGains) {
   EXPECT_TRUE(structure == LoopStructure::of_state_space("states", sampled()));
   EXPECT_FALSE(structure == LoopStructure::of_state_space("states", other));
   EXPECT_FALSE(structure == loops().structure);
+  const auto smaller = plant::subsystem(
+      sampled_controller({LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}},
+                         sample_time),
+      {"tachometer", "encoder"}, {"valve_demand"});
+  EXPECT_FALSE(
+      LoopStructure::of_state_space("states", smaller) ==
+      LoopStructure::of_state_space(
+          "states", plant::subsystem(sampled(), {"tachometer", "encoder"}, {"valve_demand"})));
 }
 
 TEST(LoopStructure, RefusesAStateSpaceWithOtherPorts) {
@@ -93,6 +101,10 @@ TEST(LoopStructure, RefusesAStateSpaceWithOtherPorts) {
   refused(plant::renamed(sampled(), {{"encoder", "resolver"}}), "expected the inputs tachometer");
   refused(plant::renamed(sampled(), {{"valve_demand", "rate"}}), "the output valve_demand");
   refused(plant::subsystem(sampled(), {"encoder"}, {"valve_demand"}), "found encoder -> ");
+  auto deaf = sampled();
+  deaf.b.col(2).setZero();
+  deaf.d.col(2).setZero();
+  refused(deaf, "answers the tachometer, found a zero column");
   auto continuous = sampled();
   continuous.sample_time = 0.0;
   refused(continuous, "expected a sampled state space");

@@ -109,8 +109,8 @@ struct AntennaControllerOptions {
 class AntennaController final : public plant::SampledController {
  public:
   /// @throws InvalidInput as sampled_controller, for a command limit or a supply torque that is not
-  /// above 0, and feedforward that is not finite; for a state-space controller with another sample
-  /// time, without an encoder, with other ports or not stable by itself.
+  /// above 0, and feedforward that is not finite; for a state-space controller that is not stable
+  /// by itself.
   AntennaController(const Controller& controller, double sample_time,
                     const AntennaControllerOptions& options = {});
 

@@ -19,7 +19,7 @@ struct Controller {
   std::vector<double> gains;
 };
 
-/// The controller that a state space is (LoopStructure::of_state_space). @throws as it
+/// A state space as a controller (LoopStructure::of_state_space). @throws as of_state_space.
 Controller state_space_controller(std::string name, const plant::StateSpace& controller);
 
 /// @throws InvalidInput for the wrong number of gains or one that is not positive and finite.

@@ -38,7 +38,8 @@ enum class LoopBreak {
 inline constexpr std::array loop_breaks{LoopBreak::rate_loop_alone, LoopBreak::valve_command,
                                         LoopBreak::position_loop};
 std::string_view to_string(LoopBreak loop_break);
-/// False for the rate loop and the position loop of a state space, which has neither.
+/// False for the rate loop and the position loop of a state space: cut at its encoder it would have
+/// both in form (ControlledAntenna), but nothing closes one before the other.
 bool has_break(const Controller& controller, LoopBreak loop_break);
 
 /// The open-loop gain at a break at one frequency (rad/s), with exact dead time. Negative feedback

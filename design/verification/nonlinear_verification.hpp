@@ -77,7 +77,8 @@ struct WindResult {
   double predicted_rms = 0.0;  // by the spectrum, continuous with exact dead time
   /// Boresight error at rest in the mean wind, by the linear loop (static_boresight_error).
   double static_error = 0.0;
-  /// The same records through the linear plant, with the actual and 16 times the sampling rate.
+  /// The same records through the linear plant, with the actual and 16 times the sampling rate; a
+  /// state space has the actual one only, in both.
   double linear_rms = 0.0;
   double continuous_rms = 0.0;
   double realisation_error = 0.0;  // realisation error: continuous - predicted
@@ -205,8 +206,7 @@ void explain_in_wind(const TrackingProblem& problem, const SimulatedLoop& loop,
 /// reversals, slew. Runs that fail or lose the target are reported in their result. The result does
 /// not depend on the number of threads. `problem`: the tuning problem, for its wind and the linear
 /// prediction.
-/// @throws InvalidInput for options out of range, no seeds, `explain` with a state-space controller
-/// (which has no continuous form to compare with), and as run_loop.
+/// @throws InvalidInput for options out of range, no seeds, and as run_loop.
 NonlinearVerification verify_in_time(const TrackingProblem& problem, const SimulatedLoop& loop,
                                      const NonlinearVerificationOptions& options);
 

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <boresight/control/controllers/antenna_controller.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>

@@ -3,7 +3,6 @@
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/plant/antenna/antenna_modal_system.hpp>
-#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::control {
 namespace {
@@ -59,7 +58,6 @@ plant::StateSpace sampled_sensitivity(const plant::AntennaPlant& antenna,
   plant::StateSpace loop = sampled_open_loop(
       sampled_loop(plant::to_state_space(antenna), controller, sample_time), "valve_command");
   // The command acts after a sample: L has no feedthrough.
-  loop = plant::subsystem(loop, {"valve_command"}, {"valve_command_returned"});
   loop.a -= loop.b * loop.c;
   loop.c = -loop.c;
   loop.d.setOnes();

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/control/controllers/sampled_loop.hpp>
+#include <boresight/control/controllers/sensor_response.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -21,7 +22,6 @@ namespace boresight::control {
 namespace {
 
 using Names = std::vector<std::string>;
-constexpr std::array sensors{"tachometer", "encoder", "motor_torque"};
 constexpr std::complex<double> nothing{std::numeric_limits<double>::quiet_NaN(), 0.0};
 
 Eigen::Index place(const Names& names, std::string_view name) {
@@ -32,7 +32,7 @@ Eigen::Index place(const Names& names, std::string_view name) {
 // As a controller's samples see it.
 plant::StateSpace sampled_antenna(const plant::AntennaPlant& antenna, double sample_time) {
   return plant::sample(plant::subsystem(plant::to_state_space(antenna), {"valve_command"},
-                                        {sensors.begin(), sensors.end()}),
+                                        {sensor_names.begin(), sensor_names.end()}),
                        sample_time);
 }
 
@@ -76,7 +76,8 @@ plant::StateSpace antenna_state_space_controller(const plant::StateSpace& contro
         fmt::format("antenna_state_space_controller: expected {}, found {}", expected, found));
   };
   const auto known = [](const std::string& name) {
-    return name == "rate_disturbance" || std::ranges::find(sensors, name) != sensors.end();
+    return name == "rate_disturbance" ||
+           std::ranges::find(sensor_names, name) != sensor_names.end();
   };
   const auto stranger = std::ranges::find_if_not(inputs, known);
   if (stranger != inputs.end()) {
@@ -138,8 +139,8 @@ ControlledAntenna::ControlledAntenna(const plant::AntennaPlant& antenna,
         fmt::format("ControlledAntenna: expected a delay of 0 or more, found {} s", delay));
   }
   const plant::StateSpace system = antenna_state_space_controller(controller);
-  for (std::size_t i = 0; i < sensors.size(); ++i) {
-    column_.at(i) = place(system.inputs, sensors.at(i));
+  for (std::size_t i = 0; i < sensor_names.size(); ++i) {
+    column_.at(i) = place(system.inputs, sensor_names.at(i));
     reads_.at(i) = column_.at(i) >= 0;
   }
   rate_disturbance_ = place(system.inputs, "rate_disturbance");

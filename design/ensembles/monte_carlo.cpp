@@ -155,6 +155,7 @@ void MonteCarloEvaluator::set_goals(const plant::AntennaPlant& plant, const Fixe
     goal.ratio = ratio;
   };
   for (std::size_t b = 0; b < breaks; ++b) {
+    if (!control::has_break(study_.controller, control::loop_breaks.at(b))) continue;
     add(GoalKind::sensitivity_peak, control::loop_breaks.at(b),
         values.sensitivity_peaks.at(b) / goals.sensitivity_peak.at(b));
   }

@@ -3,7 +3,6 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 

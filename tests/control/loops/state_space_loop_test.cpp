@@ -29,6 +29,16 @@ Controller states(double factor = 1.0) {
   return state_space_controller("states", system);
 }
 
+// With pressure feedback and compliance compensation: it reads the torque.
+Controller states_with_torque() {
+  const Controller cautious{LoopStructure::named("FULL+L+C"),
+                            {0.3, 3.0, 40.0, 2e-3, 1.0, 4.0, 1.5, 15.0, 1e-4, 1.0}};
+  return state_space_controller(
+      "states with torque",
+      plant::subsystem(sampled_controller(cautious, sample_time),
+                       {"tachometer", "encoder", "motor_torque"}, {"valve_demand"}));
+}
+
 TEST(StateSpaceLoop, HasTheVariancesOfItsLoops) {
   auto evaluator = reference::loop_evaluator(reference::antenna());
   const auto expected = evaluator.evaluate(loops(), false);
@@ -91,14 +101,30 @@ TEST(StateSpaceLoop, StabilityIsThatOfTheSampledLoop) {
   EXPECT_LT(stable_ones, 18);
 }
 
+// As verification compares them: noise white to far beyond the loop.
 TEST(StateSpaceLoop, RmsOfTheCovarianceIsThatOfTheSpectrum) {
   const auto plant = reference::antenna();
   auto noise = reference::sensor_noise();
   const auto filter = reference::wind_filter(8);
-  const auto expected = lyapunov_rms(plant, loops(), reference::delay, filter, noise);
-  const auto found = lyapunov_rms(plant, states(), reference::delay, filter, noise);
-  EXPECT_NEAR(found.wind / expected.wind, 1.0, 2e-3);
-  EXPECT_NEAR(found.noise / expected.noise, 1.0, 0.02);
+  const double widening = std::sqrt(100.0 / noise.bandwidth);
+  for (double* rms : {&noise.encoder_rms, &noise.tachometer_rms, &noise.torque_rms}) {
+    *rms *= widening;
+  }
+  noise.bandwidth = 100.0;
+  const Eigen::ArrayXd w = plant::frequency_grid(plant, 1e-4, 100.0, 300);
+  LoopEvaluator evaluator(plant, w,
+                          {.delay = reference::delay,
+                           .noise = noise,
+                           .wind_spectrum = (w / two_pi).unaryExpr([](double f) {
+                             return reference::motor_wind_spectrum(f);
+                           })});
+  for (const Controller& controller : {states(), states_with_torque()}) {
+    const auto spectrum = evaluator.evaluate(controller, false);
+    const auto covariance = lyapunov_rms(plant, controller, reference::delay, filter, noise);
+    ASSERT_TRUE(spectrum.stable());
+    EXPECT_NEAR(covariance.total / std::sqrt(spectrum.boresight_variance()), 1.0, 5e-3);
+    EXPECT_NEAR(covariance.noise / std::sqrt(spectrum.noise_variance), 1.0, 5e-3);
+  }
 }
 
 }  // namespace

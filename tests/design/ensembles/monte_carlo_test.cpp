@@ -151,6 +151,10 @@ TEST(MonteCarlo, OfAStateSpaceCountsItsOneLoopAndRetunesNothing) {
   EXPECT_TRUE(outcome.stable());
   EXPECT_EQ(outcome.violated_constraints & 0b101U, 0U);
   EXPECT_GT(outcome.sensitivity_peaks[1], 1.01);
+  // Nor do the loops that it does not have count for the worst constraint.
+  EXPECT_EQ(outcome.worst_constraint,
+            std::max(outcome.sensitivity_peaks[1] / 3.0,
+                     outcome.control_effort / states.goals.control_effort));
   states.retune = true;
   EXPECT_THROW(design::MonteCarloEvaluator{states}, InvalidInput);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every public header reaches, by its own includes or those of the project's headers that it names, what
-it uses of the standard library and of Eigen. (That it compiles alone is seen by the target
-header_self_sufficiency, whose precompiled header would hide these two.)
+it uses of the standard library, of Eigen and of the project's types, and can be included twice. (The
+debug preset compiles each alone as well, behind a precompiled header that would hide the first two.)
 
   header_includes_test.py SOURCE_FOLDER
 """
@@ -28,10 +28,23 @@ BROUGHT = {
     "filesystem": {"string"},
 }
 INCLUDE = re.compile(r'^#include [<"]([^>"]+)[>"]', re.M)
+# Types that a header defines or declares for others, at the left margin; and those within its classes.
+OUTER = re.compile(r"^(?:struct|class|enum class) (?:\[\[\w+\]\] )?(\w+)|^using (\w+) =", re.M)
+INNER = re.compile(r"^ +(?:struct|class|enum class|using) (\w+)", re.M)
+
+
+def code(header):
+    text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+    return re.sub(r'"(?:\\.|[^"\\\n])*"(?!>)', '""', text)
+
+
+def types_at_the_margin(text):
+    return {one or other for one, other in OUTER.findall(text)}
 
 
 def reached(header, root, seen):
-    """Names of the headers outside the project that a header includes, itself or by the project's."""
+    """Names of the headers outside the project that a header includes, itself or by the project's; these
+    are added to `seen`."""
     names = set()
     for name in INCLUDE.findall(header.read_text(encoding="utf-8")):
         own = root / name.removeprefix("boresight/")
@@ -48,11 +61,16 @@ def reached(header, root, seen):
     return names
 
 
-def lacking(header, root):
-    text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+def lacking(header, root, codes, types):
+    text = codes[header]
     needed = {DECLARED_IN[name] for name in re.findall(r"std::(\w+)", text) if name in DECLARED_IN}
-    names = reached(header, root, {header})
+    seen = {header}
+    names = reached(header, root, seen)
     found = sorted(needed - names)
+    used = set(re.findall(r"\b[A-Z]\w+\b", text)) & set().union(*types.values())
+    found += sorted(used - set(INNER.findall(text)) - set().union(*(types[one] for one in seen)))
+    if not re.search(r"^#pragma once$", text, re.M):
+        found.append("#pragma once")
     if "Eigen::" in text and not any(name.startswith("Eigen/") for name in names):
         found.append("Eigen")
     return found
@@ -61,8 +79,12 @@ def lacking(header, root):
 def main():
     root = pathlib.Path(sys.argv[1]).resolve()
     headers = [header for module in MODULES for header in sorted((root / module).rglob("*.hpp"))]
+    codes = {header: code(header) for header in headers}
+    types = {header: types_at_the_margin(text) for header, text in codes.items()}
     complaints = [f"{header.relative_to(root)} lacks {', '.join(found)}"
-                  for header in headers if (found := lacking(header, root))]
+                  for header in headers if (found := lacking(header, root, codes, types))]
+    if sum(map(len, types.values())) < 500:
+        complaints.append("the project's types were not found where they stand")
     print("\n".join(complaints))
     return 1 if complaints or not headers else 0
 

@@ -21,6 +21,9 @@ struct TuneArguments {
   unsigned threads = 0;  // 0: all
   /// A record of the case whose response takes the model's place; empty: none.
   std::string measured_record;
+  /// Without the pointing limit of any linear controller, and so without the state-space
+  /// controller.
+  bool no_limit = false;
 };
 
 /// Tunes and evaluates controllers. With records, the plant is the identified one and the ensemble

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/benchmark_command.hpp>
+#include <boresight/app/commands/controller_option.hpp>
 #include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/figures/benchmark_figures.hpp>
 #include <boresight/app/page/report_page.hpp>
@@ -26,17 +27,6 @@ namespace {
 
 constexpr std::string_view recommended_gains = "tuned";
 
-std::vector<std::string> names_in(const std::string& text) {
-  std::vector<std::string> names;
-  std::size_t from = 0;
-  while (from < text.size()) {
-    const auto end = std::min(text.find(',', from), text.size());
-    if (end > from) names.push_back(text.substr(from, end - from));
-    from = end + 1;
-  }
-  return names;
-}
-
 // A controller, and the remarks of its file.
 struct Named {
   design::BenchmarkedController controller;
@@ -46,24 +36,25 @@ struct Named {
 // What the command line names; none where the recommended one is wanted.
 std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Case& antenna,
                                double sample_time) {
-  if (!arguments.controller_path.empty()) {
-    if (arguments.gains != recommended_gains || arguments.sampled) {
-      throw InvalidInput(
-          "benchmark: expected either --controller or gains (--gains, --sampled), found both");
+  arguments.controller.validate();
+  if (!arguments.controller.controller_path.empty()) {
+    if (arguments.sampled) {
+      throw InvalidInput("expected either --controller or gains for --sampled, found both");
     }
-    const auto file = io::read_controller(arguments.controller_path, io::gear_ratio(antenna),
-                                          {names_in(arguments.controller_inputs),
-                                           names_in(arguments.controller_outputs), arguments.part});
-    return Named{{file.system, "controller of " + arguments.controller_path, std::nullopt},
-                 file.remarks};
+    const auto file = io::read_controller(arguments.controller.controller_path,
+                                          io::gear_ratio(antenna), arguments.controller.names());
+    return Named{
+        {file.system, "controller of " + arguments.controller.controller_path, std::nullopt},
+        file.remarks};
   }
-  if (arguments.gains == recommended_gains) return std::nullopt;
-  if (arguments.gains == "case") {
-    const auto present = present_controller(antenna, arguments.structure);
+  if (arguments.controller.gains == recommended_gains) return std::nullopt;
+  if (arguments.controller.gains == "case") {
+    const auto present = present_controller(antenna, arguments.controller.structure);
     return Named{design::controller_of(
         present.controller, present.controller.structure.name() + ", present gains", sample_time)};
   }
-  const auto gains = io::read_gains_file(arguments.gains, antenna, arguments.structure);
+  const auto gains =
+      io::read_gains_file(arguments.controller.gains, antenna, arguments.controller.structure);
   return Named{design::controller_of(gains.controller, gains.description, sample_time)};
 }
 
@@ -71,8 +62,8 @@ Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAnt
                       double sample_time, const std::function<bool()>& interrupted) {
   ProgressLine progress("tuning and verifying");
   design::TuneOptions options;
-  if (!arguments.structure.empty()) {
-    options.structures = structure_option(designed.antenna, {arguments.structure});
+  if (!arguments.controller.structure.empty()) {
+    options.structures = structure_option(designed.antenna, {arguments.controller.structure});
   }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
@@ -156,24 +147,10 @@ Subcommand add_benchmark(CLI::App& program) {
   CLI::App* sub = program.add_subcommand(
       "benchmark", "score the closed loop's disturbance rejection by a fixed protocol");
   add_case(*sub, arguments->case_path);
-  sub->add_option("--gains", arguments->gains,
-                  "controller to score: 'tuned' (as `boresight tune` recommends, tuned now), "
-                  "'case' (present gains of the case), TOML with the keys of [gains], or the JSON "
-                  "report of boresight tune")
-      ->capture_default_str();
-  sub->add_option("--structure", arguments->structure,
-                  "its loop structure, as for `boresight tune` (default: any)");
+  add_controller(*sub, "controller to score", arguments->controller,
+                 "TOML with the keys of [gains], or the JSON report of boresight tune");
   sub->add_flag("--sampled", arguments->sampled,
                 "score the gains in the sampled form that the antenna's computer runs");
-  sub->add_option("--controller", arguments->controller_path,
-                  "any linear controller as state space, MAT (version 5) or JSON: see "
-                  "docs/benchmark-protocol.md");
-  sub->add_option("--part", arguments->part,
-                  "state space to use from a file of several (--mat or --json of model, redesign, "
-                  "tune): controller, sampled_controller or state_space_controller");
-  sub->add_option("--inputs", arguments->controller_inputs,
-                  "names of the controller's inputs if its file has none, comma-separated");
-  sub->add_option("--outputs", arguments->controller_outputs, "names of its outputs");
   sub->add_option("--export-controller", arguments->export_path,
                   "write the controller in use as state space to FILE.mat or FILE.json");
   sub->add_option("--compare", arguments->compare_path,

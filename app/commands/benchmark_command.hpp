@@ -6,21 +6,17 @@
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
 #include <boresight/app/commands/subcommand.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 
 namespace boresight::app {
 
 struct BenchmarkArguments {
   std::string case_path;
   Outputs outputs;
-  std::string gains = "tuned";  // "tuned", "case", or a path: TOML or the JSON of tune
-  std::string structure;        // of the controller; empty: any
-  std::string controller_path;  // MAT or JSON; empty: none
-  // Names, where the controller's file has none, comma between.
-  std::string controller_inputs, controller_outputs;
-  std::string part;          // of that file: which state space; empty: as ControllerNames has it
-  std::string export_path;   // where the controller in use is written; empty: nowhere
-  std::string compare_path;  // another score sheet; empty: none
-  bool sampled = false;      // the controller in its sampled form
+  ControllerOptions controller;  // its gains may also be a path of TOML
+  std::string export_path;       // where the controller in use is written; empty: nowhere
+  std::string compare_path;      // another score sheet; empty: none
+  bool sampled = false;          // the controller in its sampled form
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };

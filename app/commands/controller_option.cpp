@@ -4,12 +4,14 @@
 
 namespace boresight::app {
 
-void add_controller(CLI::App& command, const std::string& subject, ControllerOptions& options) {
+void add_controller(CLI::App& command, const std::string& subject, ControllerOptions& options,
+                    const std::string& files) {
   command
       .add_option("--gains", options.gains,
                   subject +
                       ": 'tuned' (as `boresight tune` recommends, tuned now), 'case' (present "
-                      "gains of the case), or a report of tune or redesign in JSON")
+                      "gains of the case), or " +
+                      files)
       ->capture_default_str();
   command.add_option("--structure", options.structure,
                      "its loop structure, as for `boresight tune` (default: any)");
@@ -18,7 +20,10 @@ void add_controller(CLI::App& command, const std::string& subject, ControllerOpt
                      "docs/benchmark-protocol.md");
   command.add_option("--part", options.part,
                      "state space to use from a file of several (--mat or --json of model, "
-                     "redesign, tune), such as state_space_controller");
+                     "redesign, tune): controller, sampled_controller or state_space_controller");
+  command.add_option("--inputs", options.inputs,
+                     "names of the controller's inputs if its file has none, comma-separated");
+  command.add_option("--outputs", options.outputs, "names of its outputs");
 }
 
 }  // namespace boresight::app

@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -22,16 +24,23 @@ namespace {
 // A controller evaluated on samples may violate constraints.
 constexpr auto usable = design::Fitness::unverified;
 
-ChosenController state_space_of(const io::Case& antenna, const ControllerOptions& options) {
-  if (options.gains != "tuned" || !options.structure.empty()) {
-    throw InvalidInput("expected either --controller or --gains and --structure, found both");
+std::vector<std::string> names_in(const std::string& text) {
+  std::vector<std::string> names;
+  std::size_t from = 0;
+  while (from < text.size()) {
+    const auto end = std::min(text.find(',', from), text.size());
+    if (end > from) names.push_back(text.substr(from, end - from));
+    from = end + 1;
   }
+  return names;
+}
+
+ChosenController state_space_of(const io::Case& antenna, const ControllerOptions& options) {
   const std::string& path = options.controller_path;
   const design::Mission mission = io::mission_of(antenna);
   const design::TrackingProblem problem = design::tracking_problem(mission);
-  auto [controller, remarks] =
-      io::read_sampled_controller(path, io::gear_ratio(antenna),
-                                  control::sample_time_of(problem.delay), {{}, {}, options.part});
+  auto [controller, remarks] = io::read_sampled_controller(
+      path, io::gear_ratio(antenna), control::sample_time_of(problem.delay), options.names());
   const auto factor = design::largest_stable_factor(problem, controller);
   if (factor != 1.0) {
     throw InfeasibleRequirement(
@@ -45,6 +54,23 @@ ChosenController state_space_of(const io::Case& antenna, const ControllerOptions
 }
 
 }  // namespace
+
+io::ControllerNames ControllerOptions::names() const {
+  return {names_in(inputs), names_in(outputs), part};
+}
+
+void ControllerOptions::validate() const {
+  if (!controller_path.empty()) {
+    if (gains == "tuned" && structure.empty()) return;
+    throw InvalidInput("expected either --controller or --gains and --structure, found both");
+  }
+  for (const auto& [option, value] : {std::pair("--part", &part), std::pair("--inputs", &inputs),
+                                      std::pair("--outputs", &outputs)}) {
+    if (value->empty()) continue;
+    throw InvalidInput(
+        fmt::format("{}: expected --controller with the file that it is of, found none", option));
+  }
+}
 
 ChosenController present_controller(const io::Case& antenna, const std::string& structure) {
   for (const auto& [name, controller] : present_controllers(antenna)) {
@@ -60,10 +86,8 @@ ChosenController present_controller(const io::Case& antenna, const std::string& 
 
 std::optional<ChosenController> named_controller(const io::Case& antenna,
                                                  const ControllerOptions& options) {
+  options.validate();
   if (!options.controller_path.empty()) return state_space_of(antenna, options);
-  if (!options.part.empty()) {
-    throw InvalidInput("--part: expected --controller with the file that it is of, found none");
-  }
   if (options.gains == "tuned") return std::nullopt;
   if (options.gains == "case") return present_controller(antenna, options.structure);
   auto reported = io::controller_of_report(antenna, options.gains, options.structure);

@@ -7,6 +7,7 @@
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
 
 namespace boresight::app {
 
@@ -22,7 +23,13 @@ struct ControllerOptions {
   std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
   std::string structure;        // empty: any
   std::string controller_path;  // of a state space; empty: none
-  std::string part;             // of that file: which state space (io::ControllerNames)
+  // Of that file: which state space, and names of its signals where it has none, comma between
+  // (io::ControllerNames).
+  std::string part, inputs, outputs;
+
+  io::ControllerNames names() const;
+  /// @throws InvalidInput where a state space stands beside gains, or what belongs to one alone.
+  void validate() const;
 };
 
 /// What the antenna runs on now: of [gains], or of the [[loop]] named `structure`.

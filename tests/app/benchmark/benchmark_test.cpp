@@ -138,6 +138,13 @@ TEST(Benchmark, SaysWhatItNeeds) {
   const auto both = benchmark(path, {"--controller", "k.json", "--sampled"});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_THAT(both.errors, HasSubstr("either --controller or gains"));
+  const auto structure = benchmark(path, {"--controller", "k.json", "--structure", "PI"});
+  EXPECT_EQ(structure.exit_code, 2);
+  EXPECT_THAT(structure.errors,
+              HasSubstr("expected either --controller or --gains and --structure"));
+  const auto part = benchmark(path, {"--part", "controller"});
+  EXPECT_EQ(part.exit_code, 2);
+  EXPECT_THAT(part.errors, HasSubstr("--part: expected --controller"));
   const auto missing = benchmark(path, {"--controller", folder.file("none.mat")});
   EXPECT_EQ(missing.exit_code, 2);
   EXPECT_THAT(missing.errors, HasSubstr("expected a readable file"));
@@ -238,7 +245,7 @@ TEST(Benchmark, InterruptLeavesWhatWasWhole) {
   const ScratchFolder folder;
   BenchmarkArguments arguments;
   arguments.case_path = small_case(folder);
-  arguments.gains = "case";
+  arguments.controller.gains = "case";
   int asked = 0;
   const auto report = benchmark_case(arguments, [&] { return ++asked > 1; });
   EXPECT_TRUE(report.interrupted);

@@ -1,3 +1,4 @@
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <regex>
@@ -8,6 +9,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
@@ -143,6 +145,30 @@ TEST(SimulateCommand, RunsAStateSpaceOfAFile) {
                                  "--gains", "case", "--folder", folder.file("b")});
   EXPECT_EQ(both.exit_code, 2);
   EXPECT_THAT(both.errors, HasSubstr("expected either --controller or --gains"));
+
+  // Without names in its file it takes them from the command line.
+  auto bare = nlohmann::json::parse(io::controller_json(control::to_state_space(loops)));
+  std::array<std::string, 2> names;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string signals = i == 0 ? "inputs" : "outputs";
+    for (const std::string name : bare.at(signals)) names.at(i) += name + ",";
+    bare.erase(signals);
+  }
+  std::vector<std::string> words_of_bare{"simulate",
+                                         path,
+                                         "slew",
+                                         "--controller",
+                                         folder.write("bare.json", bare.dump()),
+                                         "--folder",
+                                         folder.file("d")};
+  const auto unnamed = run_program(words_of_bare);
+  EXPECT_EQ(unnamed.exit_code, 2);
+  EXPECT_THAT(unnamed.errors, HasSubstr("in the file or by --inputs, found none"));
+  for (const std::string& word :
+       {std::string("--inputs"), names[0], std::string("--outputs"), names[1]})
+    words_of_bare.push_back(word);
+  EXPECT_EQ(run_program(words_of_bare).exit_code, 0);
+  EXPECT_EQ(content_of(folder.file("d/slew.csv")), content_of(folder.file("a/slew.csv")));
 
   plant::StateSpace loud = control::to_state_space(loops);
   loud.c *= 50.0;

@@ -39,7 +39,7 @@ std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Ca
   arguments.controller.validate();
   if (!arguments.controller.controller_path.empty()) {
     if (arguments.sampled) {
-      throw InvalidInput("expected either --controller or gains for --sampled, found both");
+      throw InvalidInput("--sampled: expected gains, found --controller");
     }
     const auto file = io::read_controller(arguments.controller.controller_path,
                                           io::gear_ratio(antenna), arguments.controller.names());

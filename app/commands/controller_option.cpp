@@ -20,10 +20,11 @@ void add_controller(CLI::App& command, const std::string& subject, ControllerOpt
                      "docs/benchmark-protocol.md");
   command.add_option("--part", options.part,
                      "state space to use from a file of several (--mat or --json of model, "
-                     "redesign, tune): controller, sampled_controller or state_space_controller");
+                     "redesign, tune), such as controller, sampled_controller or "
+                     "state_space_controller");
   command.add_option("--inputs", options.inputs,
-                     "names of the controller's inputs if its file has none, comma-separated");
-  command.add_option("--outputs", options.outputs, "names of its outputs");
+                     "names of the controller's inputs, comma-separated, if its file has none");
+  command.add_option("--outputs", options.outputs, "names of the controller's outputs, likewise");
 }
 
 }  // namespace boresight::app

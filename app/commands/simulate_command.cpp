@@ -95,6 +95,7 @@ class Campaign {
         antenna_(io::read_case(arguments.case_path)),
         line_("simulating, percent") {
     check_tests(arguments.tests);
+    arguments.controller.validate();
     if (arguments.sample_rate > 0.0 && antenna_.recorder) {
       antenna_.recorder->sample_rate.value = arguments.sample_rate;
     }

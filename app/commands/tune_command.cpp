@@ -63,6 +63,9 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     if (!arguments.outputs.mat_path.empty()) {
       throw InvalidInput("tune: expected --mat with a model to write, found --measured");
     }
+    if (arguments.no_limit) {
+      throw InvalidInput("tune: expected --no-limit with a model's limit, found --measured");
+    }
     MeasuredTuneOptions study;
     study.record = arguments.measured_record;
     study.structures = arguments.structures;
@@ -185,8 +188,7 @@ Subcommand add_tune(CLI::App& program) {
   sub->add_option("--starts", arguments->starts, "random starts of each search")
       ->check(CLI::Range(1, 100000));
   sub->add_flag("--no-limit", arguments->no_limit,
-                "without the least rms of any linear controller and the state-space controller "
-                "near it: half the time");
+                "omit the lower bound of any linear controller and the state-space controller");
   add_outputs(*sub, arguments->outputs);
   add_mat(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);

@@ -21,8 +21,7 @@ struct TuneArguments {
   unsigned threads = 0;  // 0: all
   /// A record of the case whose response takes the model's place; empty: none.
   std::string measured_record;
-  /// Without the pointing limit of any linear controller, and so without the state-space
-  /// controller.
+  /// Omits the lower bound of any linear controller, and with it the state-space controller.
   bool no_limit = false;
 };
 

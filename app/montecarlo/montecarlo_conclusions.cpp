@@ -36,11 +36,11 @@ std::vector<std::string> conclude(const MonteCarloSection& section) {
                                        plant::to_string(section.wind_model), section.wind_speed);
   if (section.stable > 0) {
     const auto& q = section.boresight_rms.quantiles;
-    sentences.push_back(
-        fmt::format("With {}, {}, the boresight rms over the stable plants has median {:.4f} mdeg "
-                    "and 95 % quantile {:.4f} mdeg.",
-                    section.gains.empty() ? "this controller" : "these fixed gains", wind,
-                    q[3].number.value / millidegree, q[5].number.value / millidegree));
+    sentences.push_back(fmt::format(
+        "With {}, {}, the boresight rms over the stable plants has median {:.4f} mdeg "
+        "and 95 % quantile {:.4f} mdeg.",
+        section.controller.structure.state_space() ? "this controller" : "these fixed gains", wind,
+        q[3].number.value / millidegree, q[5].number.value / millidegree));
   }
   const std::uint64_t lost = section.unstable + section.undecided;
   sentences.push_back(

@@ -67,8 +67,7 @@ void ControllerOptions::validate() const {
   for (const auto& [option, value] : {std::pair("--part", &part), std::pair("--inputs", &inputs),
                                       std::pair("--outputs", &outputs)}) {
     if (value->empty()) continue;
-    throw InvalidInput(
-        fmt::format("{}: expected --controller with the file that it is of, found none", option));
+    throw InvalidInput(fmt::format("{}: expected --controller FILE as well, found none", option));
   }
 }
 

@@ -23,12 +23,13 @@ struct ControllerOptions {
   std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
   std::string structure;        // empty: any
   std::string controller_path;  // of a state space; empty: none
-  // Of that file: which state space, and names of its signals where it has none, comma between
-  // (io::ControllerNames).
+  // Of that file: which state space, and names of its signals if it has none, comma-separated.
   std::string part, inputs, outputs;
 
+  /// part, inputs and outputs as io::read_controller takes them.
   io::ControllerNames names() const;
-  /// @throws InvalidInput where a state space stands beside gains, or what belongs to one alone.
+  /// @throws InvalidInput for --controller beside --gains or --structure, and for --part, --inputs
+  /// or --outputs without --controller.
   void validate() const;
 };
 

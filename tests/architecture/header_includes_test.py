@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every public header reaches, by its own includes or those of the project's headers that it names, what
 it uses of the standard library, of Eigen and of the project's types, and can be included twice. (The
-debug preset compiles each alone as well, behind a precompiled header that would hide the first two.)
+debug preset compiles each alone as well, which sees functions, constants and types that are only declared.)
 
   header_includes_test.py SOURCE_FOLDER
 """
@@ -28,13 +28,13 @@ BROUGHT = {
     "filesystem": {"string"},
 }
 INCLUDE = re.compile(r'^#include [<"]([^>"]+)[>"]', re.M)
-# Types that a header defines or declares for others, at the left margin; and those within its classes.
-OUTER = re.compile(r"^(?:struct|class|enum class) (?:\[\[\w+\]\] )?(\w+)|^using (\w+) =", re.M)
+# Types that a header defines or declares, at namespace level, then nested ones.
+OUTER = re.compile(r"^(?:struct|class|enum class|enum|union) (?:\[\[\w+\]\] )?(\w+)|^using (\w+) =", re.M)
 INNER = re.compile(r"^ +(?:struct|class|enum class|using) (\w+)", re.M)
 
 
 def code(header):
-    text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+    text = re.sub(r"//.*|/\*(?:.|\n)*?\*/", "", header.read_text(encoding="utf-8"))
     return re.sub(r'"(?:\\.|[^"\\\n])*"(?!>)', '""', text)
 
 

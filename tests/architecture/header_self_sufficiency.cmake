@@ -14,8 +14,8 @@ foreach(header IN LISTS headers)
   list(APPEND sources ${source})
 endforeach()
 
-# Part of `all` only where asked for (the debug preset): minutes for what header_includes_test.py sees in a
-# second but for functions and constants.
+# Part of `all` only where asked for (the debug preset): it takes minutes, and header_includes_test.py checks
+# all but functions, constants and types that are only declared in a second.
 add_library(header_self_sufficiency OBJECT ${sources})
 if(NOT BORESIGHT_CHECK_HEADERS)
   set_target_properties(header_self_sufficiency PROPERTIES EXCLUDE_FROM_ALL ON)
@@ -23,8 +23,7 @@ endif()
 # Nothing here runs, and parsing is all that is asked.
 target_compile_options(header_self_sufficiency PRIVATE -O0 -g0 -fno-sanitize=all -Werror)
 target_link_libraries(header_self_sufficiency PRIVATE boresight::io boresight_warnings)
-# Read once: most of the time went into these. What a header uses of them without naming them is seen by
-# header_includes_test.py as well.
+# Read once, where the preset has precompiled headers: most of the time went into these.
 target_precompile_headers(header_self_sufficiency PRIVATE <Eigen/Core>
   <array> <complex> <cstdint> <functional> <limits> <map> <memory> <optional> <random> <span> <string>
   <string_view> <variant> <vector>)

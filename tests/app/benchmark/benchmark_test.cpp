@@ -137,7 +137,7 @@ TEST(Benchmark, SaysWhatItNeeds) {
   const std::string path = small_case(folder);
   const auto both = benchmark(path, {"--controller", "k.json", "--sampled"});
   EXPECT_EQ(both.exit_code, 2);
-  EXPECT_THAT(both.errors, HasSubstr("either --controller or gains"));
+  EXPECT_THAT(both.errors, HasSubstr("--sampled: expected gains, found --controller"));
   const auto structure = benchmark(path, {"--controller", "k.json", "--structure", "PI"});
   EXPECT_EQ(structure.exit_code, 2);
   EXPECT_THAT(structure.errors,

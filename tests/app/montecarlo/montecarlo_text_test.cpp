@@ -5,6 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
+#include <boresight/control/controllers/controller.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::app {
 namespace {
@@ -31,6 +34,18 @@ TEST(MonteCarloText, GivesNoFigureOfALossBeyondTheBeamsParabola) {
   EXPECT_THAT(beyond, AllOf(ContainsRegex("loss Ka, dB +> 3 +- +0\\.5300 \\[-, 0\\.7000\\] +> 3 "),
                             ContainsRegex("loss Ka, .* > 3 *\n"), Not(HasSubstr("11.0")),
                             HasSubstr("beyond 3 dB the parabolic beam model does not hold")));
+}
+
+TEST(MonteCarloConclusions, SpeakOfGainsWhereTheControllerHasSome) {
+  MonteCarloSection section = section_of({0.5, 0.7, 0.9});
+  section.stable = 2;
+  EXPECT_THAT(conclude(section).front(), HasSubstr("With these fixed gains, "));
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  section.controller = control::state_space_controller(
+      "of a file", plant::subsystem(control::sampled_controller(loops, 0.02),
+                                    {"tachometer", "encoder"}, {"valve_demand"}));
+  EXPECT_THAT(conclude(section).front(), HasSubstr("With this controller, "));
 }
 
 }  // namespace

@@ -49,8 +49,7 @@ std::string linear_case(const ScratchFolder& folder, const std::string& more = "
                                        "\n[ensemble]\ndraws = 1\n" + more);
 }
 
-// Without the pointing limit, which takes longer than all that is asked here and is asked for in
-// reports_test.py.
+// Without the pointing limit, which takes longer than all that is asked here.
 ProgramResult tune(const std::string& path, std::vector<std::string> more = {}) {
   std::vector<std::string> arguments{"tune",     path, "--details", "--no-limit",
                                      "--starts", "3",  "--threads", "1"};
@@ -263,6 +262,9 @@ TEST(Tune, RefusesWhatItCannotRead) {
     EXPECT_THAT(result.errors, HasSubstr(message));
   }
   EXPECT_EQ(run_program({"tune", path, "--starts", "0"}).exit_code, 2);
+  const ProgramResult measured = run_program({"tune", path, "--measured", "chirp", "--no-limit"});
+  EXPECT_EQ(measured.exit_code, 2);
+  EXPECT_THAT(measured.errors, HasSubstr("expected --no-limit with a model's limit"));
   const std::string empty = folder.write(
       "empty.toml",
       EditedCase().text() + "\n[ensemble.leakage_rate]\nlower = '2 1/s'\nupper = '1 1/s'\n");

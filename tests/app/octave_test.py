@@ -111,7 +111,7 @@ class Octave(unittest.TestCase):
     def test_has_the_tuned_loops(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            program("tune", CASE, "--structure", "PI", "--starts", "2", "--mat", "tuned.mat",
+            program("tune", CASE, "--structure", "PI", "--starts", "2", "--no-limit", "--mat", "tuned.mat",
                     "--json", "report.json", folder=folder)
             report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
             seen = octave(folder, SCRIPT, "tuned.mat")

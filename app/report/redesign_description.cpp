@@ -296,6 +296,10 @@ void describe(io::Visitor& v, const TuningSection& section) {
            "The design's controller with fixed gains on the ensemble members: drawn from what the "
            "records leave open, otherwise the case's ensemble; null without a stable controller.");
   describe_probability(
+      v, "probability_all_constraints_met", section.constraints_met,
+      "That the loop is stable and within every constraint on a plant sampled from the case's "
+      "ranges, or from what the records leave open; null without a stable controller.");
+  describe_probability(
       v, "instability", section.instability,
       "Of a redesign from records: probability that the loop is unstable on a sample of the case's "
       "ranges about the identified plant, with its 95 % interval; null without records.");

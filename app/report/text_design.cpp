@@ -217,6 +217,16 @@ std::string tuning_heading(const TuningSection& section) {
                      section.design_speed, plant::to_string(section.wind_model));
 }
 
+// The members of the ensemble include corners and are no random sample, nor are there many.
+Document robustness_part(const TuningSection& section) {
+  if (!section.ensemble || !section.constraints_met) return {};
+  return wrapped(
+      fmt::format("Constraints met: {} of {} ensemble members; sampled plants with probability {}.",
+                  section.ensemble->within_constraints, section.ensemble->members.size(),
+                  probability_text(*section.constraints_met)),
+      "  ");
+}
+
 Document document_of(const TuningSection& section) {
   const Design& design = section.design;
   const auto& check = design.verification;
@@ -234,7 +244,8 @@ Document document_of(const TuningSection& section) {
                             100.0 * (design.tuning.worst_constraint - 1.0)),
                 "  "));
   }
-  text += essential(gains_part(section) + "\n" + breaks_part(section) + "\n");
+  text += essential(gains_part(section) + "\n" + breaks_part(section) + robustness_part(section) +
+                    "\n");
   text += wrapped(
       fmt::format("Rms {} mdeg at the sky (wind {}, sensor noise {}); control effort "
                   "{:.3f} rad/s, limit {:g}. Active constraints: {}.{}",

@@ -66,28 +66,34 @@ EstimatedNumber probability_of(const std::vector<PlantOutcome>& outcomes, const 
 
 }  // namespace
 
-std::vector<EstimatedNumber> budget_probabilities(const Mission& mission,
-                                                  const PlantDistribution& distribution,
-                                                  const control::Controller& controller,
-                                                  const std::vector<PointingBudget>& budgets,
-                                                  const NonlinearEffect& effect,
-                                                  const MonteCarloOptions& options) {
+SampledProbabilities sampled_probabilities(const Mission& mission,
+                                           const PlantDistribution& distribution,
+                                           const control::Controller& controller,
+                                           const std::vector<PointingBudget>& budgets,
+                                           const NonlinearEffect& effect,
+                                           const MonteCarloOptions& options) {
   std::map<double, std::vector<PlantOutcome>> by_speed;
-  std::vector<EstimatedNumber> met;
-  for (const auto& budget : budgets) {
-    const double speed = budget.wind_speed.value_or(mission.wind.mean_speed);
+  const auto outcomes_at = [&](double speed) -> const std::vector<PlantOutcome>& {
     auto found = by_speed.find(speed);
     if (found == by_speed.end()) {
       Mission windy = mission;
       windy.wind.mean_speed = speed;
-      windy.climate.clear();  // costs time and enters no budget
+      windy.climate.clear();  // costs time and enters neither budgets nor constraints
       found = by_speed.emplace(speed, outcomes_of(windy, distribution, controller, options)).first;
     }
-    met.push_back(probability_of(found->second, [&](const PlantOutcome& one) {
+    return found->second;
+  };
+  SampledProbabilities result;
+  result.constraints_met = probability_of(
+      outcomes_at(mission.wind.mean_speed),
+      [](const PlantOutcome& one) { return one.stable() && one.violated_constraints == 0; });
+  for (const auto& budget : budgets) {
+    const auto& outcomes = outcomes_at(budget.wind_speed.value_or(mission.wind.mean_speed));
+    result.budgets_met.push_back(probability_of(outcomes, [&](const PlantOutcome& one) {
       return one.stable() && within_budget(effect.rms(one.boresight_rms), budget.rms);
     }));
   }
-  return met;
+  return result;
 }
 
 EstimatedNumber instability(const Mission& mission, const PlantDistribution& distribution,

@@ -35,16 +35,23 @@ MonteCarloSummary study_monte_carlo(const Mission& mission, const PlantDistribut
                                     const control::Controller& controller,
                                     const MonteCarloOptions& options);
 
-/// Probability that a plant of the distribution meets each budget, gains fixed, in the wind up to
-/// which the budget is needed, or in the mission's design wind if it states none. At the design
-/// wind: MonteCarloSummary::budgets of that study, with `effect` in place of its simulation.
-/// @throws as instability.
-std::vector<EstimatedNumber> budget_probabilities(const Mission& mission,
-                                                  const PlantDistribution& distribution,
-                                                  const control::Controller& controller,
-                                                  const std::vector<PointingBudget>& budgets,
-                                                  const NonlinearEffect& effect,
-                                                  const MonteCarloOptions& options);
+/// Probabilities that a plant of a distribution, gains fixed, ...
+struct SampledProbabilities {
+  /// ... is stable and within every constraint: MonteCarloSummary::all_constraints_met.
+  EstimatedNumber constraints_met;
+  /// ... meets each budget, in the wind up to which the budget is needed, or in the mission's
+  /// design wind if it states none. At the design wind: MonteCarloSummary::budgets, with the given
+  /// effect in place of its simulation.
+  std::vector<EstimatedNumber> budgets_met;
+};
+
+/// Those of study_monte_carlo with these options, without its simulation. @throws as instability.
+SampledProbabilities sampled_probabilities(const Mission& mission,
+                                           const PlantDistribution& distribution,
+                                           const control::Controller& controller,
+                                           const std::vector<PointingBudget>& budgets,
+                                           const NonlinearEffect& effect,
+                                           const MonteCarloOptions& options);
 
 /// MonteCarloSummary::instability of that study alone, without its simulation.
 /// @throws as study_monte_carlo, but not Interrupted: it is not polled.

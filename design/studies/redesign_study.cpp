@@ -325,9 +325,11 @@ void add_probabilities(const Mission& mission, const PlantDistribution& distribu
   if (design.design.tuning.status == TuningStatus::unstable) return;
   std::vector<PointingBudget> budgets;
   for (const auto& result : design.budgets) budgets.push_back(result.budget);
-  const auto found = budget_probabilities(mission, distribution, design.design.tuning.controller,
-                                          budgets, design.effect, options);
-  for (std::size_t i = 0; i < found.size(); ++i) design.budgets[i].probability = found[i];
+  const auto found = sampled_probabilities(mission, distribution, design.design.tuning.controller,
+                                           budgets, design.effect, options);
+  design.constraints_met = found.constraints_met;
+  for (std::size_t i = 0; i < budgets.size(); ++i)
+    design.budgets[i].probability = found.budgets_met[i];
 }
 
 }  // namespace boresight::design

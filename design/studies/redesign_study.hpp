@@ -85,6 +85,8 @@ struct RecommendedDesign {
   std::vector<ClimatePart> climate;  // of the site; empty if it is not known
   /// The controller evaluated with fixed gains on the ensemble. None without a stable one.
   std::optional<EnsembleResult> ensemble;
+  /// That a plant of a distribution is stable and within every constraint (add_probabilities).
+  std::optional<EstimatedNumber> constraints_met;
   /// The same as curves.
   std::optional<EnsembleCurves> curves;
   /// Of a position gain at the upper bound of the search that can be halved or lowered further.
@@ -162,9 +164,9 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
 void evaluate_on(const std::vector<EnsembleMember>& members, unsigned threads,
                  RecommendedDesign& design);
 
-/// Sets the probability of each budget by budget_probabilities. Does nothing for an unstable
-/// design. The members of an ensemble include corners and are no random sample: their fraction is
-/// no probability.
+/// Sets the probabilities of constraints and budgets by sampled_probabilities. Does nothing for an
+/// unstable design. The members of an ensemble include corners and are no random sample: their
+/// fraction is no probability.
 void add_probabilities(const Mission& mission, const PlantDistribution& distribution,
                        const MonteCarloOptions& options, RecommendedDesign& design);
 

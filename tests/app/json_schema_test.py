@@ -179,6 +179,11 @@ class Numbers(unittest.TestCase):
             self.assertIsNotNone(re.search(
                 rf"{re.escape(budget['name'])} +{budget['band']} .* {limit:.2f} +{3.6 * limit:.1f} +{chance['value_1']:.3f} "
                 rf"\({chance['lower_1']:.3f} to {chance['upper_1']:.3f}\)\n", text))
+        members = found["tuning"]["ensemble"]
+        met = found["tuning"]["probability_all_constraints_met"]
+        self.assertIn(f"Constraints met: {members['within_constraints']} of {len(members['members'])} ensemble members; "
+                      f"sampled plants with probability {met['value_1']:.3f} ({met['lower_1']:.3f} to {met['upper_1']:.3f}).",
+                      " ".join(text.split()))
         for assumed in found["assumed_inputs"]:
             self.assertRegex(text, rf"{re.escape(assumed['key'])} +{re.escape(assumed['value'])} ")
 

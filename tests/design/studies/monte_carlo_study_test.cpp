@@ -77,7 +77,7 @@ TEST(Instability, IsThatOfTheStudy) {
 }
 
 // The same plants as the study's, with its effect; in the wind that a budget states.
-TEST(BudgetProbabilities, AreThoseOfTheStudyInEachBudgetsWind) {
+TEST(SampledProbabilities, AreThoseOfTheStudyInEachBudgetsWind) {
   Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   const MonteCarloOptions options{.plants = 100, .seed = 5};
@@ -91,8 +91,12 @@ TEST(BudgetProbabilities, AreThoseOfTheStudyInEachBudgetsWind) {
   const auto summary = summary_of();
   PointingBudget windy = mission.budgets.front();
   windy.wind_speed = 1.5 * mission.wind.mean_speed;
-  const auto found = budget_probabilities(mission, distribution, controller_of_test(),
+  const auto both = sampled_probabilities(mission, distribution, controller_of_test(),
                                           {mission.budgets.front(), windy}, effect, options);
+  EXPECT_EQ(both.constraints_met.value, summary.all_constraints_met.value);
+  EXPECT_EQ(both.constraints_met.lower, summary.all_constraints_met.lower);
+  EXPECT_EQ(both.constraints_met.upper, summary.all_constraints_met.upper);
+  const auto& found = both.budgets_met;
   ASSERT_EQ(found.size(), 2U);
   const EstimatedNumber& met = summary.budgets.front().met;
   EXPECT_GT(met.value, 0.0);
@@ -104,9 +108,9 @@ TEST(BudgetProbabilities, AreThoseOfTheStudyInEachBudgetsWind) {
   mission.wind.mean_speed *= 1.5;
   mission.budgets = {mission.budgets.front()};
   mission.budgets.front().wind_speed.reset();
-  EXPECT_EQ(found[1].value, budget_probabilities(mission, distribution, controller_of_test(),
-                                                 mission.budgets, effect, options)
-                                .front()
+  EXPECT_EQ(found[1].value, sampled_probabilities(mission, distribution, controller_of_test(),
+                                                  mission.budgets, effect, options)
+                                .budgets_met.front()
                                 .value);
 }
 

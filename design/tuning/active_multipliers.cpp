@@ -115,7 +115,7 @@ Multipliers active_multipliers(const ActiveSet& active) {
   Eigen::VectorXd right = Eigen::VectorXd::Zero(variables + 1);
   right[variables] = weight;
 
-  // Columns of length 1: the gradients of steep constraints weigh no more than others.
+  // Columns of length 1: the gradients of steep constraints have no more weight than others.
   Eigen::VectorXd length = matrix.colwise().norm();
   length = (length.array() > 0.0).select(length, 1.0);
   Eigen::VectorXd x = nonnegative_least_squares(matrix * length.cwiseInverse().asDiagonal(), right);

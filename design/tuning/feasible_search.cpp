@@ -40,11 +40,11 @@ void check(const ConstrainedProblem& problem, const FeasibleSearchOptions& optio
   }
   if (options.evaluations_per_run < 1 || options.backtrack_steps < 1 ||
       options.max_evaluations < 1 || options.max_restarts < 0) {
-    throw InvalidInput(
-        fmt::format("FeasibleSearch: expected at least 1 evaluation a run and in all, 1 retreat "
-                    "step and 0 restarts, found {}, {}, {}, {}",
-                    options.evaluations_per_run, options.max_evaluations, options.backtrack_steps,
-                    options.max_restarts));
+    throw InvalidInput(fmt::format(
+        "FeasibleSearch: expected at least 1 evaluation a run and in all, 1 backtracking "
+        "step and 0 restarts, found {}, {}, {}, {}",
+        options.evaluations_per_run, options.max_evaluations, options.backtrack_steps,
+        options.max_restarts));
   }
   if (!(options.variable_tolerance >= 0.0) || !(options.cost_tolerance >= 0.0) ||
       !(options.worthwhile_gain >= 0.0) || !(options.reserve >= 0.0) ||
@@ -293,7 +293,7 @@ void FeasibleSearch::run(Aim aim, const std::vector<double>& start, bool until_f
 void FeasibleSearch::begin(const std::vector<double>& start) {
   start_best_.reset();
   start_nearest_.reset();
-  // Evaluated already, by a retreat, say: it counts for this start too.
+  // Evaluated already, by backtrack(), say: it counts for this start too.
   if (start == point_ && defined_) consider(start);
 }
 

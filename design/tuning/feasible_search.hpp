@@ -92,7 +92,7 @@ class FeasibleSearch {
 
   /// Searches from a start. Returns the best feasible point found from there, if any. If a start
   /// yields no feasible point, the search first minimises the largest constraint and then continues
-  /// by cost. An undefined start ends the search at once; call retreat() first.
+  /// by cost. An undefined start ends the search at once; call backtrack() first.
   std::optional<SearchPoint> search_from(const std::vector<double>& start);
 
   /// Minimises the largest constraint from a start, also below 0. Returns the point of least

@@ -91,7 +91,7 @@ double GreyBoxObjective::reweigh(const VectorXd& point) {
       channel.scale = std::sqrt(sum / static_cast<double>(std::max<Index>(1, channel.counted)));
       limit = outlier * channel.scale;
     }
-    // Records without noise would weigh beyond all measure.
+    // Records without noise would have unbounded weight.
     const double size =
         channel.pressures ? record.torque.cwiseAbs().maxCoeff() : record.rate.cwiseAbs().maxCoeff();
     channel.scale = std::max(channel.scale, 1e-9 * size + std::numeric_limits<double>::min());

@@ -226,7 +226,7 @@ class Cleaner {
     return in(result_.replaced_inlets) || in(result_.replaced_outlets);
   }
 
-  // What speaks against the columns' names or signs. The engineer must judge.
+  // What speaks against the columns' names or signs. The engineer decides.
   void report_suspicions() {
     constexpr double against = -0.5;
     const std::size_t motors = raw_.inlet.size();

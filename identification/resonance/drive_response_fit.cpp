@@ -32,7 +32,7 @@ VectorXcd windowed_transform(VectorXd part) {
 
 VectorXd equation_weights(const WindowedTransforms& rate, const WindowedTransforms& torque,
                           const FrequencyBand& band, const BinNoise& noise) {
-  // Smooth |Z|^2, so that a bin's own noise does not weigh it.
+  // Smooth |Z|^2, so that a bin's own noise does not change its weight.
   VectorXd weight(band.count);
   for (Index k = 0; k < band.count; ++k) {
     const Index from = std::max<Index>(band.first + k - 3, 1);

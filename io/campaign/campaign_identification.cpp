@@ -179,7 +179,7 @@ void run_hold_out(const Campaign& campaign, const IdentificationOptions& options
                   SharedProgress& progress, CampaignSection& section,
                   std::vector<MethodFailure>& failures) {
   if (const auto* record = record_to_hold_out(campaign)) {
-    attempt(fmt::format("foretelling {}", record->name), failures, [&] {
+    attempt(fmt::format("predicting {}", record->name), failures, [&] {
       identification::GreyBoxOptions grey;
       grey.seed = options.seed;
       grey.threads = options.threads;

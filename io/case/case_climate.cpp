@@ -52,7 +52,7 @@ void check_keys_of_way(const TableReader& entry, const std::string& way) {
   }
 }
 
-// Of the Weibull law of which that fraction of all winds lies above `exceeded`.
+// Shape of the Weibull distribution with that fraction of all winds above `exceeded`.
 double shape_by_exceedance(const TableReader& entry, const Quantity& mean, const Quantity& exceeded,
                            const Quantity& exceeded_share) {
   const double ratio = exceeded.value / mean.value;
@@ -77,7 +77,7 @@ double shape_by_exceedance(const TableReader& entry, const Quantity& mean, const
   return found.shapes.front();
 }
 
-// One entry is one speed or one Weibull law; several make a mixture.
+// One entry is one speed or one Weibull distribution; several make a mixture.
 design::ClimatePart read_part(TableReader& entry, const WindEntry& wind) {
   const Range usual = Range::between(0.1, 60.0);
   const auto speed = entry.optional_quantity("speed", Kind::speed, usual);

@@ -38,7 +38,7 @@ PointResponse::PointResponse(const AntennaPlant& plant)
       modes_(numerics::pack_count(plant.structure.modes.size())) {
   structure_.modes.clear();
   for (std::size_t i = 0; i < modes_.size() * numerics::pack_size; ++i) {
-    // What fills the last pack up weighs nothing and follows nothing.
+    // Modes that fill the last pack up have no mass and no response.
     const bool there = i < plant.structure.modes.size();
     const StructuralMode mode =
         there ? plant.structure.modes[i] : StructuralMode{0.0, 1.0, 0.0, 0.0, 0.0};

@@ -72,8 +72,8 @@ std::array<Index, places.size()> check(const VibrationModes& modes) {
     }
     rows[k] = found - modes.displacements.begin();
   }
-  // What a force does at a place and what the place sees are one shape: by Betti's law, and so that
-  // the gear gives no energy of its own.
+  // What a force does at a place and what the place sees are one shape: by Betti's reciprocal
+  // theorem, and so that the gear gives no energy of its own.
   const Eigen::VectorXd pushed = modes.force_shape.col(0);
   const Eigen::VectorXd seen = modes.displacement_shape.row(rows[0]).transpose();
   if ((pushed - seen).cwiseAbs().maxCoeff() > 1e-6 * seen.cwiseAbs().maxCoeff()) {

@@ -46,7 +46,7 @@ Eigen::VectorXd torque_series(const WindRecord& record, const WindSite& site,
       options.model == WindModel::uniform
           ? about_mean
           : smooth(about_mean, record.sample_time, record.speed.mean(), site, options.model);
-  // Mirrored ends weigh a little more in the smoothed series than in the record.
+  // Mirrored ends have slightly more weight in the smoothed series than in the record.
   torque.array() += (options.remove_mean ? 0.0 : mean) - torque.mean();
   return torque;
 }

@@ -1,14 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
 #include <cstddef>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <set>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -164,19 +159,7 @@ TableReader& TableReader::operator=(TableReader&&) noexcept = default;
 TableReader::~TableReader() = default;
 
 TableReader TableReader::open(const std::string& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) {
-    throw InvalidInput(fmt::format("{}: expected a readable file, found a folder", path));
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    throw InvalidInput(fmt::format("{}: expected a readable file, found none ({})", path,
-                                   std::generic_category().message(errno)));
-  }
-  note_input(path, text);
-  return parse(text, path);
+  return parse(read_input(path), path);
 }
 
 TableReader TableReader::parse(std::string_view text, const std::string& name) {

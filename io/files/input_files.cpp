@@ -1,8 +1,13 @@
 #include <array>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <set>
 #include <span>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,6 +15,7 @@
 #include <nettle/sha2.h>
 
 #include <boresight/io/files/input_files.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
 namespace {
@@ -53,6 +59,27 @@ std::string sha256_base64(std::string_view bytes) {
   const Digest digest = sha256(bytes);
   std::string text(BASE64_ENCODE_RAW_LENGTH(digest.size()), '\0');
   base64_encode_raw(text.data(), digest.size(), digest.data());
+  return text;
+}
+
+std::string read_input(const std::string& path, std::uint64_t max_bytes) {
+  std::error_code unknown;
+  if (std::filesystem::is_directory(path, unknown)) {
+    throw InvalidInput(fmt::format("{}: expected a readable file, found a folder", path));
+  }
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!unknown && size > max_bytes) {
+    throw InvalidInput(
+        fmt::format("{}: expected at most {} bytes, found {}", path, max_bytes, size));
+  }
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) {
+    throw InvalidInput(fmt::format("{}: expected a readable file, found none ({})", path,
+                                   std::generic_category().message(errno)));
+  }
+  note_input(path, text);
   return text;
 }
 

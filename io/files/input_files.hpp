@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,6 +18,12 @@ struct InputFile {
 /// SHA-256 (FIPS 180-4) in hexadecimal digits, and in base 64 as browsers take it.
 std::string sha256_hex(std::string_view bytes);
 std::string sha256_base64(std::string_view bytes);
+
+/// The content of an input file, which note_input registers.
+/// @throws InvalidInput naming the file, for a folder, for one that cannot be read and for one of
+/// more than `max_bytes`.
+std::string read_input(const std::string& path,
+                       std::uint64_t max_bytes = std::numeric_limits<std::uint64_t>::max());
 
 /// Registers an input file, from any thread, so that a report can list all inputs. Returns the
 /// content's SHA-256 in hexadecimal digits.

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -9,6 +7,7 @@
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/table_reader.hpp>
 #include <boresight/io/case/toml_tree.hpp>
+#include <boresight/io/files/input_files.hpp>
 #include <boresight/io/proposals/changeable_numbers.hpp>
 #include <boresight/io/proposals/proposal.hpp>
 #include <boresight/io/units/wording.hpp>
@@ -331,9 +330,7 @@ Proposal parse_proposal(std::string_view text, const std::string& path) {
 }
 
 Proposal read_proposal(const std::string& path) {
-  TableReader::open(path);  // says what is wrong with a file that cannot be read
-  std::ifstream file(path, std::ios::binary);
-  return parse_proposal(std::string{std::istreambuf_iterator<char>(file), {}}, path);
+  return parse_proposal(read_input(path), path);
 }
 
 }  // namespace boresight::io

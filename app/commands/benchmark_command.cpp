@@ -1,4 +1,3 @@
-#include <fstream>
 #include <memory>
 
 #include <CLI/CLI.hpp>
@@ -18,14 +17,13 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
+#include <boresight/io/exchange/gains_file.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
-
-constexpr std::string_view recommended_gains = "tuned";
 
 // A controller, and the remarks of its file.
 struct Named {
@@ -42,20 +40,25 @@ std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Ca
       throw InvalidInput("--sampled: expected gains, found --controller");
     }
     const auto file = io::read_controller(arguments.controller.controller_path,
-                                          io::gear_ratio(antenna), arguments.controller.names());
+                                          io::gear_ratio(antenna), arguments.controller.names);
     return Named{
         {file.system, "controller of " + arguments.controller.controller_path, std::nullopt},
         file.remarks};
   }
-  if (arguments.controller.gains == recommended_gains) return std::nullopt;
+  if (arguments.controller.recommended()) return std::nullopt;
   if (arguments.controller.gains == "case") {
     const auto present = present_controller(antenna, arguments.controller.structure);
     return Named{design::controller_of(
         present.controller, present.controller.structure.name() + ", present gains", sample_time)};
   }
-  const auto gains =
-      io::read_gains_file(arguments.controller.gains, antenna, arguments.controller.structure);
-  return Named{design::controller_of(gains.controller, gains.description, sample_time)};
+  const auto file =
+      io::read_gains_file(arguments.controller.gains, antenna, arguments.controller.structure,
+                          design::Fitness::misses_member);
+  const std::string origin = file.tuned_for.empty() ? "gains" : file.tuned_for + ",";
+  return Named{design::controller_of(
+      file.controller,
+      fmt::format("{}, {} of {}", file.structure, origin, arguments.controller.gains),
+      sample_time)};
 }
 
 Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAntenna& designed,
@@ -74,14 +77,6 @@ Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAnt
       chosen.controller, fmt::format("{}, {}", chosen.structure, chosen.source), sample_time)};
 }
 
-std::string text_of(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw InvalidInput(fmt::format("{}: expected a readable file, found none", path));
-  io::note_input(path, text);
-  return text;
-}
-
 }  // namespace
 
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
@@ -93,7 +88,7 @@ BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
       arguments.sampled ? control::sample_time_of(antenna.controller->delay.value) : 0.0;
   const auto named = named_one(arguments, antenna, sample_time);
   const std::string other =
-      arguments.compare_path.empty() ? std::string() : text_of(arguments.compare_path);
+      arguments.compare_path.empty() ? std::string() : io::read_input(arguments.compare_path);
   const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   const Named scored =
@@ -147,8 +142,7 @@ Subcommand add_benchmark(CLI::App& program) {
   CLI::App* sub = program.add_subcommand(
       "benchmark", "score the closed loop's disturbance rejection by a fixed protocol");
   add_case(*sub, arguments->case_path);
-  add_controller(*sub, "controller to score", arguments->controller,
-                 "TOML with the keys of [gains], or the JSON report of boresight tune");
+  add_controller(*sub, "controller to score", arguments->controller);
   sub->add_flag("--sampled", arguments->sampled,
                 "score the gains in the sampled form that the antenna's computer runs");
   sub->add_option("--export-controller", arguments->export_path,

@@ -13,10 +13,10 @@ namespace boresight::app {
 struct BenchmarkArguments {
   std::string case_path;
   Outputs outputs;
-  ControllerOptions controller;  // its gains may also be a path of TOML
-  std::string export_path;       // where the controller in use is written; empty: nowhere
-  std::string compare_path;      // another score sheet; empty: none
-  bool sampled = false;          // the controller in its sampled form
+  ControllerOptions controller;
+  std::string export_path;   // where the controller in use is written; empty: nowhere
+  std::string compare_path;  // another score sheet; empty: none
+  bool sampled = false;      // the controller in its sampled form
   std::uint64_t seed = 1;
   unsigned threads = 0;  // 0: all
 };

@@ -11,9 +11,7 @@ class App;
 namespace boresight::app {
 
 /// The options that name a controller: --gains, --structure, and --controller with --part, --inputs
-/// and --outputs. `subject` begins the description of the first, such as "the controller"; `files`
-/// says which files hold gains.
-void add_controller(CLI::App& command, const std::string& subject, ControllerOptions& options,
-                    const std::string& files = "a report of tune or redesign in JSON");
+/// and --outputs. `subject` begins the description of the first, such as "the controller".
+void add_controller(CLI::App& command, const std::string& subject, ControllerOptions& options);
 
 }  // namespace boresight::app

@@ -1,6 +1,4 @@
-#include <algorithm>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,7 +12,7 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
-#include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/io/exchange/gains_file.hpp>
 #include <boresight/io/exchange/sampled_controller_file.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -24,23 +22,12 @@ namespace {
 // A controller evaluated on samples may violate constraints.
 constexpr auto usable = design::Fitness::unverified;
 
-std::vector<std::string> names_in(const std::string& text) {
-  std::vector<std::string> names;
-  std::size_t from = 0;
-  while (from < text.size()) {
-    const auto end = std::min(text.find(',', from), text.size());
-    if (end > from) names.push_back(text.substr(from, end - from));
-    from = end + 1;
-  }
-  return names;
-}
-
 ChosenController state_space_of(const io::Case& antenna, const ControllerOptions& options) {
   const std::string& path = options.controller_path;
   const design::Mission mission = io::mission_of(antenna);
   const design::TrackingProblem problem = design::tracking_problem(mission);
   auto [controller, remarks] = io::read_sampled_controller(
-      path, io::gear_ratio(antenna), control::sample_time_of(problem.delay), options.names());
+      path, io::gear_ratio(antenna), control::sample_time_of(problem.delay), options.names);
   const auto factor = design::largest_stable_factor(problem, controller);
   if (factor != 1.0) {
     throw InfeasibleRequirement(
@@ -55,20 +42,18 @@ ChosenController state_space_of(const io::Case& antenna, const ControllerOptions
 
 }  // namespace
 
-io::ControllerNames ControllerOptions::names() const {
-  return {names_in(inputs), names_in(outputs), part};
-}
-
 void ControllerOptions::validate() const {
   if (!controller_path.empty()) {
     if (gains == "tuned" && structure.empty()) return;
     throw InvalidInput("expected either --controller or --gains and --structure, found both");
   }
-  for (const auto& [option, value] : {std::pair("--part", &part), std::pair("--inputs", &inputs),
-                                      std::pair("--outputs", &outputs)}) {
-    if (value->empty()) continue;
+  const auto refuse = [](bool given, const char* option) {
+    if (!given) return;
     throw InvalidInput(fmt::format("{}: expected --controller FILE as well, found none", option));
-  }
+  };
+  refuse(!names.part.empty(), "--part");
+  refuse(!names.inputs.empty(), "--inputs");
+  refuse(!names.outputs.empty(), "--outputs");
 }
 
 ChosenController present_controller(const io::Case& antenna, const std::string& structure) {
@@ -87,13 +72,13 @@ std::optional<ChosenController> named_controller(const io::Case& antenna,
                                                  const ControllerOptions& options) {
   options.validate();
   if (!options.controller_path.empty()) return state_space_of(antenna, options);
-  if (options.gains == "tuned") return std::nullopt;
+  if (options.recommended()) return std::nullopt;
   if (options.gains == "case") return present_controller(antenna, options.structure);
-  auto reported = io::controller_of_report(antenna, options.gains, options.structure);
-  return ChosenController{std::move(reported.controller), std::move(reported.structure),
-                          reported.tuned_for.empty()
+  auto file = io::read_gains_file(options.gains, antenna, options.structure);
+  return ChosenController{std::move(file.controller), std::move(file.structure),
+                          file.tuned_for.empty()
                               ? options.gains
-                              : fmt::format("{}, tuned {}", options.gains, reported.tuned_for)};
+                              : fmt::format("{}, tuned {}", options.gains, file.tuned_for)};
 }
 
 ChosenController recommended_controller(const io::DesignedAntenna& designed,

@@ -20,14 +20,12 @@ struct ChosenController {
 
 /// What a command line names. With a path of a state space, nothing else is named.
 struct ControllerOptions {
-  std::string gains = "tuned";  // "tuned", "case", or the path of a report in JSON
+  std::string gains = "tuned";  // "tuned", "case", or a path for io::read_gains_file
   std::string structure;        // empty: any
   std::string controller_path;  // of a state space; empty: none
-  // Of that file: which state space, and names of its signals if it has none, comma-separated.
-  std::string part, inputs, outputs;
+  io::ControllerNames names;    // of that file
 
-  /// part, inputs and outputs as io::read_controller takes them.
-  io::ControllerNames names() const;
+  bool recommended() const { return controller_path.empty() && gains == "tuned"; }
   /// @throws InvalidInput for --controller beside --gains or --structure, and for --part, --inputs
   /// or --outputs without --controller.
   void validate() const;
@@ -37,9 +35,9 @@ struct ControllerOptions {
 /// @throws InvalidInput if the case has none.
 ChosenController present_controller(const io::Case& antenna, const std::string& structure);
 
-/// The controller of a command line: with "case" present_controller, with a path of a report
-/// io::controller_of_report, with one of a state space io::read_sampled_controller at the sample
-/// time of the antenna's computer; nothing with "tuned".
+/// The controller of a command line: with "case" present_controller, with a path of gains
+/// io::read_gains_file, with one of a state space io::read_sampled_controller at the sample time of
+/// the antenna's computer; nothing if recommended().
 /// @throws InvalidInput as they do; InfeasibleRequirement for a state space that is not stable on
 /// the nominal antenna, with the factor of its output at which it is.
 std::optional<ChosenController> named_controller(const io::Case& antenna,

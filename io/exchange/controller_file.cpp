@@ -1,22 +1,16 @@
-#include <cerrno>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <boresight/control/loops/state_space_controller.hpp>
-#include <boresight/io/case/case_tuning.hpp>
-#include <boresight/io/case/table_reader.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
-#include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/records/record_mat.hpp>
+#include <boresight/io/units/units.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -129,27 +123,6 @@ std::string unit_at(const std::vector<std::string>& units, std::size_t i) {
   return units.empty() ? std::string() : units[i];
 }
 
-std::string content_of_file(const std::string& path) {
-  std::error_code unknown;
-  if (std::filesystem::is_directory(path, unknown)) {
-    throw InvalidInput(fmt::format("{}: expected a readable file, found a folder", path));
-  }
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  if (!unknown && size > largest_file) {
-    throw InvalidInput(
-        fmt::format("{}: expected at most {} bytes, found {}", path, largest_file, size));
-  }
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) {
-    throw InvalidInput(fmt::format("{}: expected a readable file, found none ({})", path,
-                                   std::generic_category().message(errno)));
-  }
-  note_input(path, text);
-  return text;
-}
-
 }  // namespace
 
 ControllerFile parse_controller(std::string_view content, const std::string& name,
@@ -219,58 +192,12 @@ ControllerFile parse_controller(std::string_view content, const std::string& nam
 
 ControllerFile read_controller(const std::string& path, double gear_ratio,
                                const ControllerNames& names) {
-  return parse_controller(content_of_file(path), path, gear_ratio, names);
+  return parse_controller(read_input(path, largest_file), path, gear_ratio, names);
 }
 
 void write_controller(const std::string& path, const plant::StateSpace& controller) {
   write_atomically(
       path, path.ends_with(".mat") ? controller_mat(controller) : controller_json(controller));
-}
-
-namespace {
-
-control::Controller controller_from(TableReader& table, const Case& antenna) {
-  control::Controller controller;
-  const std::string name = table.text("structure");
-  try {
-    controller.structure = loop_structure(antenna, name);
-  } catch (const InvalidInput& error) {
-    table.refuse("structure", error.what());
-  }
-  for (const auto& block : controller.structure.blocks()) {
-    for (std::size_t i = 0; i < block.gains.size(); ++i) {
-      controller.gains.push_back(table
-                                     .quantity(block.gains[i].symbol,
-                                               gain_kind(block.path, block.kind, i),
-                                               Range::positive(1e11))
-                                     .value);
-    }
-  }
-  table.finish();
-  return controller;
-}
-
-}  // namespace
-
-GainsFile read_gains_file(const std::string& path, const Case& antenna,
-                          const std::string& structure) {
-  const std::string text = content_of_file(path);
-  const auto first = text.find_first_not_of(" \t\r\n");
-  if (first != std::string::npos && text[first] == '{') {
-    auto reported = written_controller_of_report(antenna, text, path, structure);
-    return {std::move(reported.controller),
-            fmt::format("{}, {}, of {}", reported.structure, reported.tuned_for, path)};
-  }
-  TableReader file = TableReader::parse(text, path);
-  GainsFile result;
-  if (auto table = file.optional_table("gains")) {
-    result.controller = controller_from(*table, antenna);
-    file.finish();
-  } else {
-    result.controller = controller_from(file, antenna);
-  }
-  result.description = fmt::format("{}, gains of {}", result.controller.structure.name(), path);
-  return result;
 }
 
 }  // namespace boresight::io

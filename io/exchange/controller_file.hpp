@@ -7,8 +7,6 @@
 
 #include <Eigen/Core>
 
-#include <boresight/control/controllers/controller.hpp>
-#include <boresight/io/case/case_declaration.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::io {
@@ -64,15 +62,5 @@ std::string chosen_part(const std::vector<std::string>& parts, const std::string
 void write_controller(const std::string& path, const plant::StateSpace& controller);
 std::string controller_mat(const plant::StateSpace& controller);
 std::string controller_json(const plant::StateSpace& controller);
-
-/// Gains from a file: TOML with the keys of [gains] (in that table or at the top), or the JSON
-/// report of `boresight tune`, of which written_controller_of_report.
-/// @throws InvalidInput naming the file.
-struct GainsFile {
-  control::Controller controller;
-  std::string description;  // "PI, robust, of report.json"
-};
-GainsFile read_gains_file(const std::string& path, const Case& antenna,
-                          const std::string& structure = {});
 
 }  // namespace boresight::io

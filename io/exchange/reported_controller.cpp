@@ -1,7 +1,4 @@
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <vector>
 
 #include <fmt/format.h>
@@ -12,9 +9,7 @@
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
-#include <boresight/io/files/input_files.hpp>
 #include <boresight/io/files/renamed_keys.hpp>
-#include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -109,21 +104,19 @@ control::LoopStructure structure_named(const Case& antenna, const std::string& n
   return loop_structure(antenna, name);
 }
 
-ReportedController controller_of_report(const Case& antenna, const std::string& path,
-                                        const std::string& structure) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) refuse(path, "no file that can be read");
-  note_input(path, text);
+GainsOfFile controller_of_report(const Case& antenna, const std::string& text,
+                                 const std::string& path, const std::string& structure,
+                                 design::Fitness accepted) {
   try {
     Json report = Json::parse(text);
     use_present_keys(report, path);
     if (report.contains("tuned")) {
-      // What is evaluated on samples may miss its goals.
-      const Json* best = recommended_row(report.at("tuned").at("controllers"), structure,
-                                         design::Fitness::unverified);
+      const Json* best = recommended_row(report.at("tuned").at("controllers"), structure, accepted);
       if (best == nullptr) {
-        refuse(path, structure.empty() ? "none" : fmt::format("none of {}", structure));
+        refuse(path,
+               fmt::format(
+                   "none{}{}", structure.empty() ? "" : " of " + structure,
+                   accepted < design::Fitness::unverified ? " that meets its constraints" : ""));
       }
       const auto name = best->at("structure").get<std::string>();
       return {controller_from_design(antenna, path, best->at("design"), name), name,
@@ -142,47 +135,6 @@ ReportedController controller_of_report(const Case& antenna, const std::string& 
     refuse(path, "neither 'tuned' nor 'tuning'");
   } catch (const nlohmann::json::exception& error) {
     refuse(path, fmt::format("something else ({})", error.what()));
-  }
-}
-
-ReportedController written_controller_of_report(const Case& antenna, const std::string& text,
-                                                const std::string& path,
-                                                const std::string& structure) {
-  try {
-    Json report = Json::parse(text);
-    use_present_keys(report, path);
-    const Json* row = recommended_row(report.at("tuned").at("controllers"), structure,
-                                      design::Fitness::misses_member);
-    if (row == nullptr) {
-      throw InvalidInput(fmt::format(
-          "{}: expected a tuned controller that meets its goals{}, found none", path,
-          structure.empty() ? "" : fmt::format(" of structure {}", in_quotes(structure))));
-    }
-    ReportedController found;
-    const auto name = row->at("structure").get<std::string>();
-    found.controller.structure = loop_structure(antenna, name);
-    std::map<std::string, std::string> written;
-    for (const auto& gain : row->at("gains_as_written")) {
-      written[gain.at("symbol").get<std::string>()] = gain.at("value").get<std::string>();
-    }
-    for (const auto& block : found.controller.structure.blocks()) {
-      for (std::size_t i = 0; i < block.gains.size(); ++i) {
-        const auto gain = written.find(block.gains[i].symbol);
-        if (gain == written.end()) {
-          throw InvalidInput(fmt::format("{}: expected a gain {} of {}, found none", path,
-                                         block.gains[i].symbol, in_quotes(name)));
-        }
-        found.controller.gains.push_back(
-            parse_quantity(gain->second, gain_kind(block.path, block.kind, i)).value);
-      }
-    }
-    control::validate(found.controller);
-    found.structure = name;
-    found.tuned_for = row->at("tuned_for").get<std::string>();
-    return found;
-  } catch (const nlohmann::json::exception& error) {
-    throw InvalidInput(
-        fmt::format("{}: expected a report of `boresight tune`, found: {}", path, error.what()));
   }
 }
 

@@ -176,54 +176,5 @@ TEST(ControllerFile, SurvivesRandomBytes) {
   EXPECT_GT(read, 0);
 }
 
-TEST(GainsFile, ReadsTomlInOrOutOfItsTable) {
-  const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
-  const ScratchFolder folder;
-  const std::string gains =
-      "structure = \"PI\"\nkr = \"0.2\"\nwi = \"0.127 Hz\"\nwp = \"6 rad/s\"\nkp = \"0.2 1/s\"\n"
-      "wip = \"0.02 rad/s\"\n";
-  for (const std::string& text : {gains, "[gains]\n" + gains}) {
-    const auto file = io::read_gains_file(folder.write("gains.toml", text), antenna);
-    EXPECT_EQ(file.controller.structure, control::LoopStructure::named("PI"));
-    ASSERT_EQ(file.controller.gains.size(), 5U);
-    EXPECT_NEAR(file.controller.gains[1], 2.0 * std::numbers::pi * 0.127, 1e-12);
-  }
-  const auto message = [&](const std::string& text) {
-    try {
-      io::read_gains_file(folder.write("gains.toml", text), antenna);
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_THAT(message(gains + "kx = \"1\"\n"), HasSubstr("kx"));
-  EXPECT_THAT(message("structure = \"PJ\"\n"), HasSubstr("found 'PJ'"));
-  EXPECT_THAT(message("{\"tuned\": 1}"), HasSubstr("a report of `boresight tune`"));
-  EXPECT_THAT(message("{\"tuned\": {\"controllers\": []}}"),
-              HasSubstr("a tuned controller that meets its goals, found none"));
-}
-
-TEST(GainsFile, TakesTheBestControllerOfATuneReport) {
-  const io::Case antenna = io::parse_case(EditedCase().text(), "case.toml");
-  const ScratchFolder folder;
-  const auto row = [](const char* purpose, const char* rms, const char* met, const char* kr) {
-    return std::string(R"({"structure": "PI-0", "tuned_for": ")") + purpose +
-           R"(", "design_wind_speed_m_per_s": 10, "constraints_met": )" + met +
-           R"(, "boresight_rms_mdeg": )" + rms +
-           R"(, "gains_as_written": [{"symbol": "kr", "value": ")" + kr +
-           R"("}, {"symbol": "wi", "value": "0.8 rad/s"}, {"symbol": "kp", "value": "0.2 1/s"},
-               {"symbol": "wip", "value": "0.02 rad/s"}]})";
-  };
-  const std::string path = folder.write(
-      "report.json", R"({"tuned": {"controllers": [)" + row("nominal", "0.1", "true", "0.1") + "," +
-                         row("robust", "0.3", "true", "0.3") + "," +
-                         row("robust", "0.2", "false", "0.4") + "," +
-                         row("robust", "0.25", "true", "0.5") + "]}}");
-  const auto file = io::read_gains_file(path, antenna);
-  EXPECT_DOUBLE_EQ(file.controller.gains[0], 0.5);
-  EXPECT_THAT(file.description, HasSubstr("PI-0, robust"));
-  EXPECT_THROW(io::read_gains_file(path, antenna, "DPF"), InvalidInput);
-}
-
 }  // namespace
 }  // namespace boresight::io

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
-#include "scratch_folder.hpp"
 #include <boresight/control/controllers/loop_structure.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/io/files/input_files.hpp>
@@ -30,9 +29,9 @@ std::string report_of_version_0_1() {
 }
 
 TEST(ControllerOfReport, ReadsKeysOfVersion01AndWarns) {
-  const ScratchFolder folder;
-  const std::string path = folder.write("old.json", report_of_version_0_1());
-  const auto found = controller_of_report(parse_case(EditedCase().text(), "case.toml"), path, "");
+  const std::string path = "old.json";
+  const auto found = controller_of_report(parse_case(EditedCase().text(), "case.toml"),
+                                          report_of_version_0_1(), path, "");
   EXPECT_EQ(found.structure, "PI-0");
   EXPECT_EQ(found.tuned_for, "robust");
   EXPECT_THAT(warnings_noted(),

@@ -22,9 +22,8 @@ const std::string pi_gains =
 std::string refusal(const std::string& text, const std::string& structure = {}) {
   const ScratchFolder folder;
   try {
-    read_gains_file(folder.write("gains.toml", text),
-                    parse_case(EditedCase().text(), "case.toml"), structure,
-                    design::Fitness::misses_member);
+    read_gains_file(folder.write("gains.toml", text), parse_case(EditedCase().text(), "case.toml"),
+                    structure, design::Fitness::misses_member);
   } catch (const InvalidInput& error) {
     return error.what();
   }

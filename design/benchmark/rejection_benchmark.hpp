@@ -16,7 +16,7 @@ namespace boresight::design {
 
 /// Version of the protocol (docs/benchmark-protocol.md). It increases with every change of a
 /// definition, grid or list; scores of different versions are not comparable.
-inline constexpr int rejection_protocol = 3;
+inline constexpr int rejection_protocol = 4;
 
 /// Mean wind speeds of the protocol's ladder, m/s.
 inline constexpr std::array rejection_speeds{2.0, 5.0, 8.0, 10.0, 12.0, 15.0, 20.0};

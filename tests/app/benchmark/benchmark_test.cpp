@@ -85,7 +85,7 @@ TEST(Benchmark, ExportedControllerScoresAsTheController) {
     ASSERT_EQ(given.exit_code, 0) << given.errors;
     const nlohmann::json one = nlohmann::json::parse(content_of(folder.file("controller.json")));
     const nlohmann::json other = nlohmann::json::parse(content_of(folder.file("given.json")));
-    EXPECT_EQ(one.at("protocol_version"), 3);
+    EXPECT_EQ(one.at("protocol_version"), 4);
     EXPECT_GT(one.at("score").at("torque_step").at("peak_mdeg_per_MN_m").get<double>(), 0.0);
     expect_close(one.at("score"), other.at("score"), 1e-8, "score");
     EXPECT_TRUE(other.at("no_nonlinear_score").is_string());
@@ -180,7 +180,7 @@ TEST(Benchmark, ComparesScoreSheetsOfOneProtocolOnly) {
   other["protocol_version"] = 1;
   const auto refused = benchmark(path, {"--compare", folder.write("other.json", other.dump())});
   EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_THAT(refused.errors, HasSubstr("expected a score sheet of protocol 3, found protocol 1"));
+  EXPECT_THAT(refused.errors, HasSubstr("expected a score sheet of protocol 4, found protocol 1"));
   const auto nothing = benchmark(path, {"--compare", folder.write("bad.json", "{}")});
   EXPECT_EQ(nothing.exit_code, 2);
   EXPECT_THAT(nothing.errors, HasSubstr("expected a score sheet"));

@@ -2,6 +2,7 @@
 #include <boresight/app/figures/figure_description.hpp>
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/json_writer.hpp>
+#include <boresight/io/description/state_space_description.hpp>
 
 namespace boresight::app {
 namespace {
@@ -61,7 +62,8 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
   v.word("kind", to_string(sheet.stage.kind),
          {to_string(StageKind::as_found), to_string(StageKind::rate_loop),
           to_string(StageKind::pressure_feedback), to_string(StageKind::position_loop),
-          to_string(StageKind::compliance), to_string(StageKind::feedforward)},
+          to_string(StageKind::compliance), to_string(StageKind::output),
+          to_string(StageKind::feedforward)},
          "what the stage changes");
   v.count("step", sheet.stage.step, "number among those of its kind, from 1");
   v.count("steps", sheet.stage.steps, "of its kind");
@@ -180,6 +182,15 @@ void describe(io::Visitor& v, const CommissionReport& report) {
            "factor that the assumed start's gains are divided by; null where the gains found are "
            "used");
   v.text_or_null("no_plan", report.no_plan, "why there is no plan; null: there is one");
+  const auto* system =
+      report.plan.stages.empty()
+          ? nullptr
+          : report.plan.stages.back().controller.controller.structure.state_space();
+  v.optional_members(system != nullptr ? std::optional(*system) : std::nullopt,
+                     [&](const plant::StateSpace& controller) {
+                       v.object("state_space_controller", controller,
+                                "the controller at the end of a plan for a state space, sampled");
+                     });
   v.texts("remarks", report.plan.remarks, "what the plan had to do otherwise than asked");
   v.list("stages", report.sheets, "in the order of the work",
          [&](const StageSheet& sheet) { describe_sheet(v, sheet, sky); });

@@ -9,6 +9,7 @@
 #include <boresight/app/report/decision.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
@@ -128,10 +129,14 @@ Document plan_part(const CommissionReport& report) {
                               report.ensemble_size, report.ensemble_source, report.wind_speed,
                               report.wind_model, 100.0 * report.options.confidence),
                   "  ");
+  const auto& target = report.plan.stages.back().controller.controller.structure;
+  if (target.state_space() != nullptr) {
+    text += essential(wrapped(
+        fmt::format("The controller: {}; --json has them too.", state_space_text(target)), "  "));
+  }
   if (report.plan.detuning) {
-    const auto& structure = report.plan.stages.back().controller.controller.structure;
     const bool integral =
-        structure.count(control::LoopPath::position, control::BlockKind::integral) > 0;
+        target.count(control::LoopPath::position, control::BlockKind::integral) > 0;
     const bool known = report.plan.stages.front().kind == design::StageKind::as_found;
     text += essential(wrapped(
         fmt::format(

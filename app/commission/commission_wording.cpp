@@ -96,6 +96,8 @@ void describe_way_back(const StageSheet* before, StageSheet& sheet) {
     }
   } else if (kind == StageKind::feedforward) {
     sheet.way_back = "Switch feedforward off: the loops are as they were.";
+  } else if (kind == StageKind::output) {
+    sheet.way_back = "Set the output factor of the stage before; brakes on if it oscillates.";
   } else if (sheet.stage.controller.position_open) {
     sheet.way_back = "Rate command to zero, then the gains of the stage before.";
   } else if (before->stage.controller.position_open) {
@@ -109,6 +111,14 @@ std::vector<StageGain> stage_gains(const io::GainUnits& units, const design::Sta
                                    const design::StageController* before) {
   const auto texts = units.texts(stage.controller);
   std::vector<StageGain> gains;
+  if (stage.controller.structure.state_space() != nullptr) {
+    const double factor = stage.output_factor;
+    const bool changed =
+        before != nullptr &&
+        (before->output_factor != factor || before->controller.structure.state_space() == nullptr);
+    return {{"k", "factor on the output of the state space", fmt::format("{:.4g}", factor), factor,
+             changed}};
+  }
   for (const auto& [place, changed] : acting_gains(stage, before)) {
     const auto& description = stage.controller.structure.gains()[place];
     gains.push_back({description.symbol, description.name, texts[place],
@@ -139,10 +149,14 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
                     "leakage, inertia, units and definition of the gains before any stage.",
                     first.expected.plants - first.expected.stable, first.expected.plants));
   }
+  const bool state_space = last.controller.controller.structure.state_space() != nullptr;
   sentences.push_back(fmt::format(
-      "{} stages lead to {}. No gain changes by more than a factor of {:.3g} per stage; Ms is at "
-      "most {:.2f} on each of {} plants at every stage.",
+      "{} stages lead to {}. {} by more than a factor of {:.3g} per stage; Ms is at most {:.2f} on "
+      "each of {} plants at every stage.",
       report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
+      state_space ? "It replaces the gains as a whole, with a part of its output, which rises by "
+                    "no step"
+                  : "No gain changes",
       report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));
   if (first.kind == StageKind::as_found && std::isfinite(first.expected.boresight_rms.upper)) {
     sentences.push_back(fmt::format(

@@ -140,6 +140,19 @@ Controller state_space_controller(std::string name, const plant::StateSpace& con
   return {LoopStructure::of_state_space(std::move(name), controller), {}};
 }
 
+Controller with_output_times(double factor, const Controller& controller) {
+  const plant::StateSpace* system = controller.structure.state_space();
+  if (system == nullptr) {
+    throw InvalidInput(
+        fmt::format("with_output_times: expected a state space, found a controller of gains ({})",
+                    controller.structure.name()));
+  }
+  plant::StateSpace scaled = *system;
+  scaled.c *= factor;
+  scaled.d *= factor;
+  return state_space_controller(controller.structure.name(), scaled);
+}
+
 void validate(const Controller& controller) {
   const auto& descriptions = controller.structure.gains();
   if (controller.gains.size() != descriptions.size()) {

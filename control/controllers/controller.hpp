@@ -22,6 +22,10 @@ struct Controller {
 /// A state space as a controller (LoopStructure::of_state_space). @throws as of_state_space.
 Controller state_space_controller(std::string name, const plant::StateSpace& controller);
 
+/// A state-space controller with its output times a factor. @throws InvalidInput for a controller
+/// with gains.
+Controller with_output_times(double factor, const Controller& controller);
+
 /// @throws InvalidInput for the wrong number of gains or one that is not positive and finite.
 void validate(const Controller& controller);
 

@@ -61,6 +61,11 @@ std::size_t loop_gain_index(const StageController& stage) {
 }
 
 StageController raised(StageController stage, double factor) {
+  if (stage.controller.structure.state_space() != nullptr) {
+    stage.controller = control::with_output_times(factor, stage.controller);
+    stage.output_factor *= factor;
+    return stage;
+  }
   stage.controller.gains[loop_gain_index(stage)] *= factor;
   return stage;
 }
@@ -202,6 +207,27 @@ bool all_stable(const CommissioningStage& stage) {
   return stage.expected.stable == stage.expected.plants;
 }
 
+// The controller in the target's structure that the antenna's own gains make; none where they make
+// none or are not allowed.
+std::optional<Controller> start_from(Plants& plants, const Controller& found,
+                                     const Controller& target, double limit,
+                                     CommissioningPlan& plan) {
+  const auto start = controller_within(found, target);
+  if (!start) {
+    plan.remarks.emplace_back(
+        "The controller found has parts that the controller chosen has not: no path of gains "
+        "leads from one to "
+        "the other. The plan starts afresh, from gains of the controller chosen.");
+  } else if (plants.worst_peak({*start, true, false}) > limit) {
+    plan.remarks.push_back(
+        fmt::format("The rate loop as found has an Ms above {:g} on an ensemble member. "
+                    "The plan starts afresh, from gains of the controller chosen.",
+                    limit));
+    return std::nullopt;
+  }
+  return start;
+}
+
 // The gains the plan starts from where none can be started from.
 Controller assumed_start(Plants& plants, const Controller& target, double limit,
                          CommissioningPlan& plan) {
@@ -229,8 +255,8 @@ Controller assumed_start(Plants& plants, const Controller& target, double limit,
 }  // namespace
 
 std::string_view to_string(StageKind kind) {
-  static constexpr std::array names{"as found",      "rate loop",  "pressure feedback",
-                                    "position loop", "compliance", "feedforward"};
+  static constexpr std::array names{"as found",   "rate loop", "pressure feedback", "position loop",
+                                    "compliance", "output",    "feedforward"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
@@ -300,25 +326,14 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
   }
   const double limit = std::max(options.sensitivity_limit, own * (1.0 + 1e-9));
 
+  const bool state_space = target.structure.state_space() != nullptr;
   std::optional<Controller> start;
   if (found) {
     control::validate(*found);
     plan.stages.push_back(plants.look_at(StageKind::as_found, {*found, false, false}));
-    start = controller_within(*found, target);
-    if (!start) {
-      plan.remarks.emplace_back(
-          "The controller found has parts that the controller chosen has not: no path of gains "
-          "leads from one to "
-          "the other. The plan starts afresh, from gains of the controller chosen.");
-    } else if (plants.worst_peak({*start, true, false}) > limit) {
-      plan.remarks.push_back(
-          fmt::format("The rate loop as found has an Ms above {:g} on an ensemble member. "
-                      "The plan starts afresh, from gains of the controller chosen.",
-                      limit));
-      start.reset();
-    }
+    if (!state_space) start = start_from(plants, *found, target, limit, plan);
   }
-  if (!start) start = assumed_start(plants, target, limit, plan);
+  if (!state_space && !start) start = assumed_start(plants, target, limit, plan);
 
   const auto allowed = [&](const StageController& stage) {
     if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
@@ -329,13 +344,21 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
   plan.largest_step = options.largest_step;
   for (int attempt = 0; attempt < 3 && !path; ++attempt) {
     if (attempt > 0) plan.largest_step = std::sqrt(plan.largest_step);
-    path = commissioning_path(*start, target, plan.largest_step, allowed, why_not);
+    path = start ? commissioning_path(*start, target, plan.largest_step, allowed, why_not)
+                 : output_path(target, plan.largest_step, allowed, why_not);
   }
   if (!path) {
-    throw InfeasibleRequirement(
-        fmt::format("no path of gains with Ms below {:g} on every plant was found, "
-                    "with steps down to a factor of {:.3g}: {}",
-                    limit, plan.largest_step, why_not));
+    throw InfeasibleRequirement(fmt::format(
+        "no path of {} with Ms below {:g} on every plant was found, "
+        "with steps down to a factor of {:.3g}: {}",
+        state_space ? "factors on the output" : "gains", limit, plan.largest_step, why_not));
+  }
+  if (state_space) {
+    plan.remarks.push_back(fmt::format(
+        "The controller is a state space: it replaces the gains as a whole, at rest, with {:.3g} "
+        "of its output, which the stages raise. It has no anti-windup: keep the valve off its "
+        "limits.",
+        path->front().controller.output_factor));
   }
   for (const auto& stage : *path) {
     plan.stages.push_back(plants.look_at(stage.kind, stage.controller));

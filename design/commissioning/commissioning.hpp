@@ -17,6 +17,7 @@ enum class StageKind {
   pressure_feedback,  // pressure path, the position loop open
   position_loop,      // position path
   compliance,         // compliance path
+  output,             // a state space: its whole output
   feedforward,        // rate and acceleration of the commanded motion
 };
 std::string_view to_string(StageKind kind);
@@ -110,6 +111,9 @@ struct CommissioningPlan {
 /// pressure feedback; then pressure feedback, alternately with the rate path where that is limited
 /// by damping. Then the position loop is closed at the gains found (halved until every plant
 /// allows) and raised; then compliance compensation, then feedforward.
+/// A state space has no loops to close one by one: it takes over at the least factor on its output
+/// that can be raised to 1 in such steps, a quarter or the next step below it at the lowest; then
+/// feedforward.
 /// Every stage is stable by eigenvalues on the problem's plant and every member, with Ms at most
 /// `sensitivity_limit` (or the target's own, if larger).
 /// The plan does not depend on the number of threads. Cost: some 20 ms per stage and plant.

@@ -12,6 +12,8 @@ struct StageController {
   control::Controller controller;
   bool position_open = false;  // external rate command; position and compliance paths inactive
   bool feedforward = false;    // control::plant_feedforward, with the position loop closed
+  /// Of a state space: the factor on its output, which `controller` contains.
+  double output_factor = 1.0;
 };
 
 /// Rms of recorded signals, at the motor: measured values including the sensors' own noise, over

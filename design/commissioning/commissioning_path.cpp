@@ -301,4 +301,32 @@ std::optional<std::vector<PathStage>> commissioning_path(
   return Walk(start, target, largest_step, allowed).run(why_not);
 }
 
+std::optional<std::vector<PathStage>> output_path(
+    const Controller& target, double largest_step,
+    const std::function<bool(const StageController&)>& allowed, std::string& why_not) {
+  const auto stage = [&](double factor) {
+    StageController controller{control::with_output_times(factor, target)};
+    controller.output_factor = factor;
+    return controller;
+  };
+  std::vector<PathStage> stages;
+  for (double factor = 1.0; factor > first_fraction;) {
+    factor /= largest_step;
+    const StageController lower = stage(factor);
+    if (!allowed(lower)) break;
+    stages.push_back({StageKind::output, lower});
+  }
+  if (stages.empty()) {
+    why_not = fmt::format("{:.3g} of the output is not allowed on every plant", 1.0 / largest_step);
+    return std::nullopt;
+  }
+  std::ranges::reverse(stages);
+  // The target itself, not its output times 1.
+  StageController whole{target};
+  stages.push_back({StageKind::output, whole});
+  whole.feedforward = true;
+  stages.push_back({StageKind::feedforward, whole});
+  return stages;
+}
+
 }  // namespace boresight::design

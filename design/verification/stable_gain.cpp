@@ -1,23 +1,14 @@
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/verification/stable_gain.hpp>
-#include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
 
 std::optional<double> largest_stable_factor(const TrackingProblem& problem,
                                             const control::Controller& controller) {
-  const plant::StateSpace* system = controller.structure.state_space();
-  if (system == nullptr) {
-    throw InvalidInput(
-        "largest_stable_factor: expected a state space, found a controller of gains");
-  }
   const auto stable = [&](double factor) {
-    plant::StateSpace scaled = *system;
-    scaled.c *= factor;
-    scaled.d *= factor;
-    const auto verdict = control::stability(
-        problem.plant, control::state_space_controller("scaled", scaled), problem.delay, {});
-    return verdict.stable();
+    return control::stability(problem.plant, control::with_output_times(factor, controller),
+                              problem.delay, {})
+        .stable();
   };
   constexpr double step = 0.95, least = 1e-3, resolution = 1.01;
   double factor = 1.0;

@@ -93,6 +93,19 @@ TEST(LoopStructure, OfAStateSpaceHasPartsButNoGains) {
           "states", plant::subsystem(sampled(), {"tachometer", "encoder"}, {"valve_demand"})));
 }
 
+TEST(Controller, OfAStateSpaceTimesAFactorIsThatMuchOfItsOutput) {
+  const Controller whole = state_space_controller("states", sampled());
+  const Controller half = with_output_times(0.5, whole);
+  EXPECT_EQ(half.structure.name(), "states");
+  for (const double w : {0.1, 3.0, 40.0}) {
+    EXPECT_LT(
+        std::abs(compensator_response(half, w).rate - 0.5 * compensator_response(whole, w).rate),
+        1e-12 * std::abs(compensator_response(whole, w).rate));
+  }
+  EXPECT_TRUE(with_output_times(1.0, whole).structure == whole.structure);
+  EXPECT_THROW(with_output_times(0.5, loops()), InvalidInput);
+}
+
 TEST(LoopStructure, RefusesAStateSpaceWithOtherPorts) {
   const auto refused = [](const plant::StateSpace& system, const char* why) {
     EXPECT_THAT(reference::Call([&] { LoopStructure::of_state_space("mine", system); }),

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -8,9 +9,11 @@
 
 #include "design/reference_problem.hpp"
 #include <boresight/control/analysis/step_characteristics.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_path.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::design {
 namespace {
@@ -265,6 +268,77 @@ std::string message_of(const std::function<void()>& call) {
     return failure.what();
   }
   return "nothing was thrown";
+}
+
+// Loops without integrals as a state space, which is stable by itself.
+Controller states_of_loops() {
+  const Controller loops{LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  return control::state_space_controller(
+      "states", plant::subsystem(control::sampled_controller(loops, 0.02),
+                                 {"tachometer", "encoder"}, {"valve_demand"}));
+}
+
+std::vector<double> output_factors(const std::function<bool(const StageController&)>& allowed,
+                                   std::string& why_not) {
+  std::vector<double> factors;
+  const auto path = output_path(states_of_loops(), 2.0, allowed, why_not);
+  if (!path) return factors;
+  for (const auto& stage : *path) factors.push_back(stage.controller.output_factor);
+  return factors;
+}
+
+TEST(OutputPath, RisesToTheWholeOutputFromTheLeastFactorAllowed) {
+  std::string why_not;
+  const auto at_least = [](double least) {
+    return [least](const StageController& stage) { return stage.output_factor >= least; };
+  };
+  EXPECT_THAT(output_factors(at_least(0.0), why_not), testing::ElementsAre(0.25, 0.5, 1.0, 1.0));
+  EXPECT_THAT(output_factors(at_least(0.3), why_not), testing::ElementsAre(0.5, 1.0, 1.0));
+  EXPECT_EQ(why_not, "");
+  EXPECT_THAT(output_factors(at_least(0.6), why_not), testing::IsEmpty());
+  EXPECT_THAT(why_not, HasSubstr("0.5 of the output is not allowed"));
+
+  const auto path = output_path(states_of_loops(), 2.0, at_least(0.0), why_not);
+  ASSERT_TRUE(path);
+  EXPECT_EQ(path->front().kind, StageKind::output);
+  EXPECT_EQ(path->front().controller.controller.structure.state_space()->d(0, 0),
+            0.25 * states_of_loops().structure.state_space()->d(0, 0));
+  EXPECT_EQ(path->back().kind, StageKind::feedforward);
+  EXPECT_TRUE(path->back().controller.feedforward);
+  EXPECT_TRUE(path->back().controller.controller.structure == states_of_loops().structure);
+}
+
+TEST(Commissioning, BringsAStateSpaceInByItsOutput) {
+  const auto problem = problem_of_test();
+  const auto members = few_members(problem);
+  const auto plan =
+      plan_commissioning(problem, members, pressure_controller(), states_of_loops(), move);
+  ASSERT_EQ(plan.stages.size(), 5U);
+  EXPECT_EQ(plan.stages[0].kind, StageKind::as_found);
+  for (std::size_t i = 1; i < 4; ++i) {
+    EXPECT_EQ(plan.stages[i].kind, StageKind::output);
+    EXPECT_EQ(plan.stages[i].steps, 3);
+    EXPECT_FALSE(plan.stages[i].controller.position_open);
+    EXPECT_TRUE(plan.stages[i].expected.all_stable());
+    EXPECT_LE(plan.stages[i].expected.peak.largest, 2.5);
+    EXPECT_GT(plan.stages[i].expected.overshoot.nominal, -1e-12);
+  }
+  EXPECT_EQ(plan.stages[4].kind, StageKind::feedforward);
+  EXPECT_FALSE(plan.detuning);
+  ASSERT_FALSE(plan.remarks.empty());
+  EXPECT_THAT(plan.remarks.back(), HasSubstr("with 0.25 of its output"));
+  // At the end it does what the loops do.
+  StageObserver observer(problem, problem.plant, WindTable(problem), move);
+  const auto loops =
+      observer.observe({{LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}});
+  const auto& last = plan.stages[3].expected;
+  EXPECT_NEAR(last.boresight_rms.nominal / loops.boresight_rms, 1.0, 1e-3);
+  EXPECT_NEAR(last.calm_valve.nominal / loops.calm.valve_command, 1.0, 1e-2);
+  EXPECT_NEAR(last.overshoot.nominal, loops.overshoot, 5e-3);
+  // The reserve is that of the whole output.
+  const double reserve = plan.stages[3].abort.gain_reserve;
+  ASSERT_TRUE(std::isfinite(reserve));
+  EXPECT_GT(reserve, 1.0);
 }
 
 TEST(Commissioning, SaysWhatIsWrong) {

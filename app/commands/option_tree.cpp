@@ -6,6 +6,7 @@
 #include <boresight/app/commands/option_tree.hpp>
 #include <boresight/app/report/report_schemas.hpp>
 #include <boresight/control/controllers/usual_structures.hpp>
+#include <boresight/design/problem/mission.hpp>
 #include <boresight/design/simulation/drive_tests.hpp>
 
 namespace boresight::app {
@@ -13,7 +14,11 @@ namespace {
 
 // What the program knows of an option's values without a case.
 std::vector<std::string> known_words(const std::string& command, const std::string& option) {
-  if (option == "--structure") return control::usual_structures();
+  if (option == "--structure") {
+    std::vector<std::string> names = control::usual_structures();
+    names.emplace_back(design::state_space_name);
+    return names;
+  }
   if (option == "TEST") return design::simulated_test_names();
   if (option == "SHELL") return completion_shells();
   if (option == "REPORT") return {described_reports().begin(), described_reports().end()};

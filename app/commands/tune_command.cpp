@@ -56,6 +56,13 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   if (!arguments.structures.empty()) {
     options.structures = structure_option(antenna, arguments.structures);
   }
+  if (arguments.no_limit &&
+      (options.structures.empty() ? io::asked_structures(antenna) : options.structures)
+          .state_space) {
+    throw InvalidInput(
+        "tune: expected either --no-limit or the structure SS, whose design comes from the limit, "
+        "found both");
+  }
   arguments.outputs.require_writable();
 
   Report report = begin_report("tune", antenna, arguments.case_path, arguments.seed);
@@ -108,7 +115,8 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   }
   if (report.time_domain) report.assumed = assumed_inputs(antenna, {.time_runs = true});
   const TunedController* best = best_controller(*report.tuned);
-  if (best != nullptr && !report.interrupted && !arguments.no_limit) {
+  report.limit = std::move(study.limit);
+  if (best != nullptr && !report.interrupted && !arguments.no_limit && !report.limit) {
     report.limit =
         pointing_limit_of(mission, *report.tuned, ensemble, best->wind_speed, arguments.threads);
     if (report.time_domain && report.time_domain->wind_speed == best->wind_speed) {
@@ -174,7 +182,8 @@ Subcommand add_tune(CLI::App& program) {
          "lag), DPF (PI with lag and pressure feedback), LL (PI with lead and lag), FULL "
          "(PI with lead, lag and pressure feedback), with suffixes +L (position lag instead "
          "of the integrals), +N (notch) and +C (compliance compensation), or a [[loop]] "
-         "of the case; see docs/control-structures.md")
+         "of the case; SS also designs a state-space controller from the best of them, alone "
+         "from that of the case's structures; see docs/control-structures.md")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
                   "KEY=VALUE of [goals] instead of the case's, one or several")

@@ -19,15 +19,17 @@ namespace {
 
 Figure sensitivity_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
   Figure figure = controller_figure(drawn, "sensitivity", "Sensitivity and wind torque spectrum");
-  figure.caption =
-      "Magnitude of 1/(1 + L) at the three breaks with its limit. Below: wind torque spectrum "
-      "times frequency; equal areas are equal fractions of the torque variance. " +
-      controller_conditions(drawn);
+  figure.caption = fmt::format(
+      "Magnitude of 1/(1 + L) {} with its limit. Below: wind torque spectrum times frequency; "
+      "equal areas are equal fractions of the torque variance. {}",
+      at_breaks(drawn), controller_conditions(drawn));
   figure.panels.resize(2);
   FigurePanel& sensitivity = figure.panels[0];
   sensitivity.y = {.label = "|S|", .scale = AxisScale::logarithmic, .lowest = 1e-3};
   const std::vector<double> hertz = in_hertz(on_grid.frequency);
-  for (std::size_t b = 0; b < 3; ++b) {
+  std::vector<double> goals;
+  for (const std::size_t b : shown_breaks(drawn)) {
+    goals.push_back(drawn.goals.sensitivity_peak.at(b));
     const auto& gain = on_grid.gain.at(b);
     sensitivity.series.push_back(
         {.name = break_name(b), .x = hertz, .y = numbers((1.0 + gain).abs().inverse())});
@@ -36,8 +38,6 @@ Figure sensitivity_figure(const DrawnController& drawn, const ControllerResponse
     sensitivity.marks.push_back(
         {peak.frequency / two_pi, peak.magnitude, fmt::format("{:.2f}", peak.magnitude)});
   }
-  std::vector<double> goals(drawn.goals.sensitivity_peak.begin(),
-                            drawn.goals.sensitivity_peak.end());
   std::sort(goals.begin(), goals.end());
   goals.erase(std::unique(goals.begin(), goals.end()), goals.end());
   for (const double goal : goals) {

@@ -65,4 +65,18 @@ std::string break_name(std::size_t loop_break) {
   return std::string(control::to_string(control::loop_breaks.at(loop_break)));
 }
 
+std::vector<std::size_t> shown_breaks(const DrawnController& drawn) {
+  std::vector<std::size_t> shown;
+  for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    if (control::has_break(drawn.controller, control::loop_breaks[b])) shown.push_back(b);
+  }
+  return shown;
+}
+
+std::string at_breaks(const DrawnController& drawn) {
+  const auto shown = shown_breaks(drawn);
+  return shown.size() == control::loop_breaks.size() ? "at the three breaks"
+                                                     : "at the " + break_name(shown.front());
+}
+
 }  // namespace boresight::app

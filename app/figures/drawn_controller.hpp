@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -53,5 +54,10 @@ std::string controller_conditions(const DrawnController& drawn);
 
 /// The name of a member of control::loop_breaks.
 std::string break_name(std::size_t loop_break);
+
+/// The breaks that the controller has (control::has_break), as places of control::loop_breaks.
+std::vector<std::size_t> shown_breaks(const DrawnController& drawn);
+/// "at the three breaks", or at the one of a state space.
+std::string at_breaks(const DrawnController& drawn);
 
 }  // namespace boresight::app

@@ -27,14 +27,17 @@ std::string band_sentence(const design::EnsembleCurves& curves) {
 Figure sensitivity_over_ensemble(const DrawnController& drawn,
                                  const design::EnsembleCurves& curves) {
   Figure figure = controller_figure(drawn, "ensemble-sensitivity", "Sensitivity over the ensemble");
-  figure.caption =
-      "Magnitude of 1/(1 + L) with the loop broken in the rate loop (position loop open), at the "
-      "valve command and in the position loop. Dashed: the member of the highest Ms at that "
-      "break. " +
-      band_sentence(curves) + controller_conditions(drawn);
+  const auto shown = shown_breaks(drawn);
+  figure.caption = fmt::format(
+      "Magnitude of 1/(1 + L) with the loop broken {}. Dashed: the member of the highest Ms at "
+      "that break. {}{}",
+      shown.size() == curves.sensitivity.size()
+          ? "in the rate loop (position loop open), at the valve command and in the position loop"
+          : "at the valve command",
+      band_sentence(curves), controller_conditions(drawn));
   const std::vector<double> hertz = in_hertz(curves.frequency);
   figure.x.lowest = hertz.front();
-  for (std::size_t b = 0; b < curves.sensitivity.size(); ++b) {
+  for (const std::size_t b : shown) {
     FigurePanel panel;
     panel.y = {.label = "|S|, " + break_name(b), .scale = AxisScale::logarithmic, .lowest = 0.05};
     panel.series.push_back(banded(range_name(curves), hertz, curves.sensitivity.at(b)));
@@ -88,11 +91,15 @@ std::string range_name(const design::EnsembleCurves& curves) {
 std::vector<Figure> ensemble_figures(const DrawnController& drawn) {
   if (!drawn.curves) return {};
   const design::EnsembleCurves& curves = *drawn.curves;
-  return {sensitivity_over_ensemble(drawn, curves),
-          step_figure(drawn, curves, curves.rate_step, "rate-step",
-                      "Step response of the rate loop", "Tachometer, position loop open,"),
-          step_figure(drawn, curves, curves.position_step, "position-step",
-                      "Step response of the position loop", "Encoder")};
+  std::vector<Figure> figures{sensitivity_over_ensemble(drawn, curves)};
+  if (curves.rate_step.time.size() > 0) {
+    figures.push_back(step_figure(drawn, curves, curves.rate_step, "rate-step",
+                                  "Step response of the rate loop",
+                                  "Tachometer, position loop open,"));
+  }
+  figures.push_back(step_figure(drawn, curves, curves.position_step, "position-step",
+                                "Step response of the position loop", "Encoder"));
+  return figures;
 }
 
 }  // namespace boresight::app

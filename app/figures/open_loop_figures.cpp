@@ -21,9 +21,11 @@ constexpr std::array short_names{"rate", "valve", "position"};  // of control::l
 // Each allowed Ms once, with its label.
 std::vector<std::pair<double, std::string>> allowed_peaks(const DrawnController& drawn) {
   const auto& goals = drawn.goals.sensitivity_peak;
-  const bool one = std::ranges::all_of(goals, [&](double goal) { return goal == goals.front(); });
+  const auto shown = shown_breaks(drawn);
+  const bool one = std::ranges::all_of(
+      shown, [&](std::size_t b) { return goals.at(b) == goals.at(shown.front()); });
   std::vector<std::pair<double, std::string>> allowed;
-  for (std::size_t b = 0; b < goals.size(); ++b) {
+  for (const std::size_t b : shown) {
     const double goal = goals.at(b);
     if (std::ranges::find(allowed, goal, &std::pair<double, std::string>::first) != allowed.end()) {
       continue;
@@ -50,7 +52,7 @@ FigureMark mark_on(const FigureSeries& curve, double angular_frequency, std::str
 }
 
 // The smallest margins of one break and its Ms, on its curves of gain and phase.
-void mark_margins(const control::Margins& margins, const char* name, std::size_t loop_break,
+void mark_margins(const control::Margins& margins, const char* name, std::size_t curve,
                   FigurePanel& gain, FigurePanel& phase) {
   for (const auto& crossover : margins.gain_crossovers) {
     const bool smallest = std::abs(crossover.phase_margin_deg) == margins.phase_margin_deg;
@@ -58,7 +60,7 @@ void mark_margins(const control::Margins& margins, const char* name, std::size_t
     gain.marks.push_back({hertz, 0.0, smallest ? fmt::format("{:.2f} Hz", hertz) : std::string()});
     if (!smallest) continue;
     phase.marks.push_back(
-        mark_on(phase.series[loop_break], crossover.frequency,
+        mark_on(phase.series[curve], crossover.frequency,
                 fmt::format("PM {} {:.0f}\u00b0", name, crossover.phase_margin_deg)));
   }
   for (const auto& crossover : margins.phase_crossovers) {
@@ -75,7 +77,7 @@ void mark_margins(const control::Margins& margins, const char* name, std::size_t
   }
   const auto& peak = margins.sensitivity;
   if (!(peak.frequency > 0.0) || !std::isfinite(peak.frequency)) return;
-  gain.marks.push_back(mark_on(gain.series[loop_break], peak.frequency,
+  gain.marks.push_back(mark_on(gain.series[curve], peak.frequency,
                                fmt::format("Ms {} {:.2f}", name, peak.magnitude)));
 }
 
@@ -101,14 +103,19 @@ FigureSeries nichols_curve(std::string name, const Eigen::ArrayXcd& values) {
 }  // namespace
 
 Figure open_loop_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
-  Figure figure = controller_figure(drawn, "open-loop", "Open loop at three breaks");
-  figure.caption =
-      "Loop gain broken in the rate loop (position loop open), at the valve command and in the "
-      "position loop. Circles: gain crossovers, and at each break the smallest gain margin (GM), "
-      "the smallest phase margin (PM) and the frequency of the maximum sensitivity (Ms). " +
-      controller_conditions(drawn);
+  const auto shown = shown_breaks(drawn);
+  const bool all = shown.size() == drawn.margins.size();
+  Figure figure = controller_figure(
+      drawn, "open-loop", all ? "Open loop at three breaks" : "Open loop at the valve command");
+  figure.caption = fmt::format(
+      "Loop gain broken {}. Circles: gain crossovers, and{} the smallest gain margin (GM), the "
+      "smallest phase margin (PM) and the frequency of the maximum sensitivity (Ms). ",
+      all ? "in the rate loop (position loop open), at the valve command and in the position loop"
+          : "at the valve command",
+      all ? " at each break" : "");
+  figure.caption += controller_conditions(drawn);
   std::vector<NamedResponse> loops;
-  for (std::size_t b = 0; b < on_grid.gain.size(); ++b) {
+  for (const std::size_t b : shown) {
     loops.push_back({break_name(b), on_grid.gain.at(b)});
   }
   figure.panels = bode_panels(on_grid.frequency, loops, "loop gain");
@@ -121,31 +128,30 @@ Figure open_loop_figure(const DrawnController& drawn, const ControllerResponses&
   phase.y.highest = 90.0;
   gain.lines.push_back({FigureLine::Direction::horizontal, 0.0, ""});
   phase.lines.push_back({FigureLine::Direction::horizontal, -180.0, ""});
-  for (std::size_t b = 0; b < drawn.margins.size(); ++b) {
-    mark_margins(drawn.margins.at(b), short_names.at(b), b, gain, phase);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    mark_margins(drawn.margins.at(shown[i]), short_names.at(shown[i]), i, gain, phase);
   }
   return figure;
 }
 
 Figure nyquist_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
   Figure figure = controller_figure(drawn, "nyquist", "Nyquist plot with exclusion disks");
-  const auto worst =
-      std::min_element(drawn.margins.begin(), drawn.margins.end(),
-                       [](const auto& x, const auto& y) { return x.disk.alpha < y.disk.alpha; });
-  const auto at = static_cast<std::size_t>(worst - drawn.margins.begin());
-  const auto& disk = worst->disk;
+  const auto shown = shown_breaks(drawn);
+  const std::size_t at = *std::ranges::min_element(
+      shown, {}, [&](std::size_t b) { return drawn.margins.at(b).disk.alpha; });
+  const auto& disk = drawn.margins.at(at).disk;
   figure.caption = fmt::format(
-      "Loop gain at the three breaks. No curve may enter the exclusion disk about \u22121 of the "
-      "allowed Ms. The disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: gain "
-      "{:.2f} to {:.2f}, phase {:.0f}\u00b0), touches its curve. ",
-      disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain, disk.highest_gain,
-      disk.phase_deg);
+      "Loop gain {}. No curve may enter the exclusion disk about \u22121 of the allowed Ms. The "
+      "disk of the smallest disk margin, alpha = {:.3f} ({}, {:.2f} Hz: gain {:.2f} to {:.2f}, "
+      "phase {:.0f}\u00b0), touches its curve. ",
+      at_breaks(drawn), disk.alpha, break_name(at), disk.frequency / two_pi, disk.lowest_gain,
+      disk.highest_gain, disk.phase_deg);
   figure.caption += controller_conditions(drawn);
   figure.equal_scales = true;
   figure.x = {.label = "real part", .lowest = -3.5, .highest = 1.5};
   FigurePanel panel;
   panel.y = {.label = "imaginary part", .lowest = -2.5, .highest = 2.0};
-  for (std::size_t b = 0; b < 3; ++b) {
+  for (const std::size_t b : shown) {
     panel.series.push_back({.name = break_name(b),
                             .x = numbers(on_grid.gain.at(b).real()),
                             .y = numbers(on_grid.gain.at(b).imag())});
@@ -164,15 +170,15 @@ Figure nyquist_figure(const DrawnController& drawn, const ControllerResponses& o
 
 Figure nichols_figure(const DrawnController& drawn, const ControllerResponses& on_grid) {
   Figure figure = controller_figure(drawn, "nichols", "Nichols chart with exclusion regions");
-  figure.caption =
-      "Loop gain at the three breaks, magnitude against phase, phases within \u2212360\u00b0 to "
-      "0\u00b0. No curve may enter the region about \u2212180\u00b0 and 0 dB in which |1/(1 + L)| "
-      "exceeds the allowed Ms. " +
-      controller_conditions(drawn);
+  figure.caption = fmt::format(
+      "Loop gain {}, magnitude against phase, phases within \u2212360\u00b0 to 0\u00b0. No curve "
+      "may enter the region about \u2212180\u00b0 and 0 dB in which |1/(1 + L)| exceeds the "
+      "allowed Ms. {}",
+      at_breaks(drawn), controller_conditions(drawn));
   figure.x = {.label = "phase", .unit = "deg", .lowest = -360.0, .highest = 0.0};
   FigurePanel panel;
   panel.y = {.label = "loop gain", .unit = "dB", .lowest = -30.0, .highest = 40.0};
-  for (std::size_t b = 0; b < on_grid.gain.size(); ++b) {
+  for (const std::size_t b : shown_breaks(drawn)) {
     panel.series.push_back(nichols_curve(break_name(b), on_grid.gain.at(b)));
   }
   constexpr Eigen::Index points = 181;

@@ -146,9 +146,11 @@ std::vector<Figure> tune_figures(const TuneSection& section,
                                              controllers, control::loop_breaks.at(valve),
                                              section.goals.sensitivity_peak.at(valve)));
   }
-  figures.push_back(block_diagram("controller", title_of(section),
-                                  shown->design.tuning.controller.structure,
-                                  section.gains_of(*shown), problem.delay));
+  if (!shown->is_state_space()) {
+    figures.push_back(block_diagram("controller", title_of(section),
+                                    shown->design.tuning.controller.structure,
+                                    section.gains_of(*shown), problem.delay));
+  }
   auto of_controller =
       controller_figures({.id = "controller",
                           .section = title_of(section),

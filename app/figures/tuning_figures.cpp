@@ -34,9 +34,12 @@ std::vector<Figure> tuning_figures(const TuningSection& section,
   const std::string title = tuning_heading(section);
   const std::string name(control::to_string(section.structure));
   const double noise = design.tuning.evaluation.noise_variance;
-  std::vector<Figure> figures{block_diagram("tuned-controller", title, section.structure,
-                                            section.gain_units.texts(design.tuning.controller),
-                                            section.problem.delay)};
+  std::vector<Figure> figures;
+  if (section.structure.state_space() == nullptr) {
+    figures.push_back(block_diagram("tuned-controller", title, section.structure,
+                                    section.gain_units.texts(design.tuning.controller),
+                                    section.problem.delay));
+  }
   auto of_controller = controller_figures({.id = "tuned",
                                            .section = title,
                                            .name = name,

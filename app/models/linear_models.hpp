@@ -29,7 +29,7 @@ struct LinearModels {
   plant::StateSpace plant;  // plant::to_state_space(antenna)
   double gear_ratio = 1.0;  // motor turns per turn of the antenna
   std::optional<ControllerModels> loop;
-  /// Of a StateSpaceStudy: sampled.
+  /// Of a StateSpaceStudy or of the report's controllers, recommended or not: sampled.
   std::optional<plant::StateSpace> state_space_controller = std::nullopt;
 };
 

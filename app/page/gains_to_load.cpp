@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/page/gains_to_load.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/io/case/present_gains.hpp>
@@ -16,6 +17,9 @@ namespace {
 // `values` with their units, in the structure's order.
 Document gains_table(const std::string& title, const control::LoopStructure& structure,
                      const std::vector<std::string>& values) {
+  if (structure.state_space() != nullptr) {
+    return subheading(title) + wrapped(state_space_text(structure) + ".", "  ");
+  }
   const auto& descriptions = structure.gains();
   std::vector<std::vector<std::string>> rows{{"gain", "value"}};
   for (std::size_t i = 0; i < values.size(); ++i) {

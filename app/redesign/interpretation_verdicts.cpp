@@ -128,8 +128,8 @@ std::string guessed_fractions_text(const Report& report, const TuningSection& se
   return fmt::format(
       "The modal participation of wind torque and boresight is assumed. Re-tuned, {} has {:.3f} "
       "mdeg with the case's own and {}{}. A structural model (modes_file) states it.",
-      control::to_string(section.structure), guesses.front().boresight_rms / millidegree,
-      fmt::join(others, ", "), verdicts);
+      report.interpretations.front().design->tuning.controller.structure.name(),
+      guesses.front().boresight_rms / millidegree, fmt::join(others, ", "), verdicts);
 }
 
 }  // namespace boresight::app

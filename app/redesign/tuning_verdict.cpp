@@ -251,7 +251,8 @@ void conclude_tuning(const Report& report, const TuningSection& section,
                     control::to_string(section.structure), design.verification.failure));
     return;
   }
-  const bool repeated = 2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
+  const bool repeated = section.seeds.empty() ||
+                        2 * section.seeds_within_1_percent > static_cast<int>(section.seeds.size());
   std::string text = fmt::format(
       "As built, the recommended controller, {} ({}){}, has {:.3f} mdeg rms per axis in {:.3g} m/s "
       "of wind, linear",

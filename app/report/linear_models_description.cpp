@@ -21,7 +21,8 @@ void describe(io::Visitor& v, const LinearModels& models) {
   });
   v.optional_members(models.state_space_controller, [&](const plant::StateSpace& controller) {
     v.object("state_space_controller", controller,
-             "Of tune: the state-space controller of `state_space`, sampled.");
+             "The state-space controller, sampled: of `state_space`, or SS where the structures "
+             "name it.");
   });
 }
 

@@ -16,6 +16,7 @@
 #include <boresight/app/report/influences.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/redesign_card.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/decisions/confidence.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
@@ -147,6 +148,9 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
   std::vector<std::string> gains;
   for (std::size_t i = 0; i < values.size(); ++i) {
     gains.push_back(fmt::format("{} = {}", controller.structure.gains()[i].symbol, values[i]));
+  }
+  if (controller.structure.state_space() != nullptr) {
+    gains.push_back(state_space_text(controller.structure));
   }
   const bool fit = section.fitness == design::Fitness::fit;
   const bool sure = confidence(report, section).grade != Confidence::low;

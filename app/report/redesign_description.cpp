@@ -117,14 +117,13 @@ void describe_goals(io::Visitor& v, const design::Constraints& goals) {
 }
 
 void describe_search(io::Visitor& v, const TuningSection& section) {
-  v.list("seeds", section.seeds, "The search from each seed.",
+  v.list("seeds", section.seeds, "The search from each seed; none of a state space.",
          [&](const TuningSection::SeedResult& one) {
            v.count("seed", one.seed, "The seed.");
            v.number("boresight_rms", one.boresight_rms, unit::millidegree,
                     "Boresight error that the search reached.", positive);
            v.flag("verified", one.verified, "Confirmed by independent code.");
-         },
-         {.minimum = 1});
+         });
 }
 
 void describe_wind_models(io::Visitor& v, const TuningSection& section) {
@@ -312,10 +311,15 @@ void describe(io::Visitor& v, const TuningSection& section) {
                  "Encoder after a position step, nominal plant.", positive);
         v.number("position_loop_largest", curves.position_step.largest_overshoot(), unit::ratio,
                  "The largest over the stable plants.", positive);
-        v.number("rate_loop", curves.rate_step.overshoot(), unit::ratio,
-                 "Tachometer after a rate step, position loop open, nominal plant.", positive);
-        v.number("rate_loop_largest", curves.rate_step.largest_overshoot(), unit::ratio,
-                 "The largest over the stable plants.", positive);
+        const auto of_rate_loop = [&](double overshoot) {
+          return curves.rate_step.time.size() > 0 ? std::optional(overshoot) : std::nullopt;
+        };
+        v.number("rate_loop", of_rate_loop(curves.rate_step.overshoot()), unit::ratio,
+                 "Tachometer after a rate step, position loop open, nominal plant; null for a "
+                 "state space, which has no rate loop.",
+                 positive);
+        v.number("rate_loop_largest", of_rate_loop(curves.rate_step.largest_overshoot()),
+                 unit::ratio, "The largest over the stable plants.", positive);
       });
   describe_inputs(v, section);
   describe_budgets(v, section);

@@ -14,7 +14,9 @@
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/table_columns.hpp>
+#include <boresight/app/report/text_input_effects.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/io/description/loop_results.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -53,6 +55,11 @@ std::string finite(double value, int decimals) {
 
 Document gains_part(const TuningSection& section) {
   const auto& controller = section.design.tuning.controller;
+  if (controller.structure.state_space() != nullptr) {
+    return wrapped(fmt::format("{}. Other interpretations and other flywheels are tuned with {}.",
+                               state_space_text(controller.structure), section.loops),
+                   "  ");
+  }
   const auto& descriptions = control::gain_descriptions(controller.structure);
   std::vector<std::vector<std::string>> rows{{"gain", "value", "unit", "searched"}};
   for (std::size_t i = 0; i < controller.gains.size(); ++i) {
@@ -81,6 +88,7 @@ Document breaks_part(const TuningSection& section) {
   };
   append(rows.front(), columns_of(control::Margins{}).headings);
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+    if (!control::has_break(section.design.tuning.controller, control::loop_breaks[b])) continue;
     const auto& peak = section.design.verification.peaks[b];
     const auto& margins = section.design.margins[b];
     rows.push_back({std::string(control::to_string(control::loop_breaks[b])),
@@ -139,8 +147,9 @@ std::string overshoot_text(const design::EnsembleCurves& curves) {
     return fmt::format("{}, up to {} on the stable plants", percent(step.overshoot()),
                        percent(step.largest_overshoot()));
   };
-  return fmt::format("Step overshoot: position loop {}; rate loop {}.", range(curves.position_step),
-                     range(curves.rate_step));
+  const std::string text = "Step overshoot: position loop " + range(curves.position_step);
+  if (curves.rate_step.time.size() == 0) return text + ".";
+  return fmt::format("{}; rate loop {}.", text, range(curves.rate_step));
 }
 
 // "24/30": plants of the ensemble on which a budget is met where it is needed.
@@ -174,44 +183,6 @@ Document present_part(const TuningSection& section) {
 
 }  // namespace
 
-std::string moved_text(const InputEffect& effect) {
-  const char* mark = effect.unstated ? "*" : "";
-  if (effect.range) {
-    return fmt::format("{:.3g} .. {:.3g}{}", effect.range->first, effect.range->second, mark);
-  }
-  return fmt::format("{:.3g} %{}", 100.0 * effect.moved_by / std::abs(effect.quantity.value), mark);
-}
-
-// Sensitivity of the rms to single inputs.
-Document effects_part(const TuningSection& section) {
-  if (section.input_effects.empty()) return {};
-  Document text =
-      essential(subheading("Rms with one input changed, gains fixed (* a range assumed)"));
-  text += wrapped(
-      "Each input is changed alone: by its standard uncertainty, or by 10 % (*) if it is assumed "
-      "and none is stated. An assumed wind or boresight fraction (*, with its range) is changed to "
-      "its body's inertia fraction and as far the other way, by half of it at least. The other "
-      "fractions are rescaled so that they sum to 1. Structural frequencies stay fixed, so a "
-      "lighter antenna is softer.",
-      "  ");
-  std::vector<std::vector<std::string>> rows{
-      {"input", "basis", "value", "changed by", "rms mdeg, lower", "higher"}};
-  for (const auto& effect : section.input_effects) {
-    const io::Quantity& quantity = effect.quantity;
-    const auto rms = [](double angle) {
-      return std::isfinite(angle) ? mdeg(angle) : std::string("unstable");
-    };
-    rows.push_back({quantity.key, std::string(to_string(quantity.basis)), quantity.text,
-                    moved_text(effect), rms(effect.low_rms), rms(effect.high_rms)});
-  }
-  const auto range = combined_range(section.input_effects, section.design.boresight_rms);
-  constexpr std::size_t first = 8;
-  return text + shortened(essential(table(rows, "lllrrr")), first) +
-         wrapped(fmt::format("All of these in quadrature: {} to {} mdeg.", mdeg(range.lower),
-                             std::isfinite(range.upper) ? mdeg(range.upper) : "unstable"),
-                 "  ");
-}
-
 std::string tuning_heading(const TuningSection& section) {
   return fmt::format("Tuned loops: {}, as built, {:.3g} m/s, wind model {}", section.name,
                      section.design_speed, plant::to_string(section.wind_model));
@@ -225,6 +196,17 @@ Document robustness_part(const TuningSection& section) {
                   section.ensemble->within_constraints, section.ensemble->members.size(),
                   probability_text(*section.constraints_met)),
       "  ");
+}
+
+Document seeds_part(const TuningSection& section) {
+  if (section.seeds.empty()) return {};
+  std::vector<std::string> seeds;
+  for (const auto& seed : section.seeds) {
+    seeds.push_back(mdeg(seed.boresight_rms) + (seed.verified ? "" : " (not verified)"));
+  }
+  return wrapped(fmt::format("From {} seeds: {} mdeg; {} of them within 1 % of the best.",
+                             seeds.size(), fmt::join(seeds, ", "), section.seeds_within_1_percent),
+                 "  ");
 }
 
 Document document_of(const TuningSection& section) {
@@ -268,15 +250,7 @@ Document document_of(const TuningSection& section) {
                   check.stability.rate_loop_abscissa, check.stability.closed_loop_abscissa,
                   check.stability.dead_time_residue, 100.0 * check.rms_disagreement),
       "  ");
-  std::string seeds;
-  for (const auto& seed : section.seeds) {
-    seeds += fmt::format("{}{}{}", seeds.empty() ? "" : ", ", mdeg(seed.boresight_rms),
-                         seed.verified ? "" : " (not verified)");
-  }
-  text += wrapped(fmt::format("From {} seeds: {} mdeg; {} of them within 1 % of the best.",
-                              section.seeds.size(), seeds, section.seeds_within_1_percent),
-                  "  ");
-  text += "\n";
+  text += seeds_part(section) + "\n";
   if (section.ensemble)
     text += wrapped(ensemble_text(*section.ensemble, section.ensemble_source, section.goals), "  ");
   if (section.curves) text += wrapped(overshoot_text(*section.curves), "  ");
@@ -353,7 +327,7 @@ Document document_of(const TuningSection& section) {
             design::highest_speed(section.climate)),
         "  ");
   }
-  return text + effects_part(section);
+  return text + input_effects_part(section);
 }
 
 std::string interpretations_heading(const std::vector<InterpretationResult>& interpretations) {

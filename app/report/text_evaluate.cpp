@@ -314,15 +314,21 @@ Document controllers_part(const EvaluateSection& section) {
         cells.push_back(mdeg(controller.member_rms));
         cells.push_back(fmt::format("{}/{}", controller.ensemble->within_constraints,
                                     controller.ensemble->members.size()));
-        for (const auto& peak : controller.design.verification.peaks) {
-          cells.push_back(fixed(peak.upper, 3));
+        const auto& loops = controller.design.tuning.controller;
+        for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+          cells.push_back(control::has_break(loops, control::loop_breaks[b])
+                              ? fixed(controller.design.verification.peaks[b].upper, 3)
+                              : "-");
         }
         cells.push_back(fixed(controller.design.control_effort, 3));
-        cells.push_back(fmt::format("{}/{}", controller.design.tuning.starts_at_optimum,
-                                    controller.design.tuning.starts));
+        cells.push_back(loops.structure.state_space() != nullptr
+                            ? "-"
+                            : fmt::format("{}/{}", controller.design.tuning.starts_at_optimum,
+                                          controller.design.tuning.starts));
         const auto& gains = controller.design.tuning.controller.structure.gains();
         const auto& written = candidate.gains.at(i);
         std::string list;
+        if (loops.structure.state_space() != nullptr) list = loops.structure.name();
         for (std::size_t k = 0; k < written.size(); ++k) {
           list += fmt::format("{}{} {}", k == 0 ? "" : ", ", gains[k].symbol, written[k]);
         }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_state_space.hpp>
@@ -57,6 +58,18 @@ std::string sentence(const design::StateSpaceStudy& study,
 
 }  // namespace
 
+std::string state_space_text(const control::LoopStructure& structure) {
+  const plant::StateSpace* system = structure.state_space();
+  if (system == nullptr) {
+    throw InvalidInput(
+        fmt::format("state_space_text: expected a state space, found {}", structure.name()));
+  }
+  return fmt::format(
+      "{}, sampled every {:.3g} s, from {}; matrices: state_space_controller of `boresight tune "
+      "--mat FILE`",
+      structure.name(), system->sample_time, fmt::join(system->inputs, ", "));
+}
+
 Document document_of(const design::StateSpaceStudy& study, const TimeDomainSection& loops) {
   using Run = design::SimulatedCandidate;
   const Run own = loops.own();
@@ -96,11 +109,11 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
       "  ");
   text += essential(table(rows, "l"));
   text += wrapped(
-      "It also meets the limit on Ms at standstill and is stable with its loop open. It is not "
-      "among the controllers to recommend: it has no loops to close one by one, no constraint on "
-      "the rate loop alone or on the position loop, and no anti-windup. --mat writes it as "
-      "state_space_controller, which benchmark, simulate and montecarlo take with "
-      "`--controller FILE --part state_space_controller`.",
+      "It also meets the limit on Ms at standstill and is stable with its loop open. It is "
+      "compared with the loops and recommended only where the structures name SS: it has no loops "
+      "to close one by one, no constraint on the rate loop alone or on the position loop, and no "
+      "anti-windup. --mat writes it as state_space_controller, which benchmark, simulate and "
+      "montecarlo take with `--controller FILE --part state_space_controller`.",
       "  ");
   return text;
 }
@@ -110,7 +123,8 @@ std::string state_space_advantage(const design::StateSpaceStudy& study,
   if (verdict(study) != design::StateSpaceVerdict::better) return "";
   return fmt::format(
       "A state-space controller of the same sensors ({}) would be better, but cannot be "
-      "commissioned loop by loop: {:.3f} mdeg rms simulated, {} (95 % {} to {}) beside {}.",
+      "commissioned loop by loop: {:.3f} mdeg rms simulated, {} (95 % {} to {}) beside {}. "
+      "--structure SS recommends it.",
       study.simulated.controller, compared_rms(study.simulated) / millidegree,
       signed_percent(study.change->value), signed_percent(study.change->lower),
       signed_percent(study.change->upper), loops.controller);

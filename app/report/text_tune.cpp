@@ -10,6 +10,7 @@
 #include <boresight/app/report/loss_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/app/report/text_report.hpp>
+#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/app/report/wind_mast.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
@@ -210,10 +211,15 @@ Document robustness_part(const TuneSection& section) {
       continue;
     }
     const auto& design = row.design;
-    for (const auto& peak : design.verification.peaks) cells.push_back(fixed(peak.upper, 3));
+    const auto has = [&](std::size_t loop) {
+      return control::has_break(design.tuning.controller, control::loop_breaks.at(loop));
+    };
+    for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {
+      cells.push_back(has(b) ? fixed(design.verification.peaks[b].upper, 3) : "-");
+    }
     for (const std::size_t loop : {valve, position}) {
-      cells.push_back(fixed(design.margins.at(loop).phase_margin_deg, 1));
-      cells.push_back(decibel(design.margins.at(loop).increasing_gain_margin));
+      cells.push_back(has(loop) ? fixed(design.margins.at(loop).phase_margin_deg, 1) : "-");
+      cells.push_back(has(loop) ? decibel(design.margins.at(loop).increasing_gain_margin) : "-");
     }
     cells.push_back(fixed(design.control_effort, 3));
     const auto of_all = [&](int count) {
@@ -257,9 +263,12 @@ Document gains_part(const TuneSection& section) {
         rows[k + 1].push_back(k < texts.size() ? texts[k] : "-");
       }
     }
-    Document part = subheading(fmt::format("{} at {:.3g} m/s", section.controllers[i].structure,
-                                           section.controllers[i].wind_speed)) +
-                    table(rows, "ll");
+    const auto& structure = section.controllers[i].design.tuning.controller.structure;
+    Document part =
+        subheading(fmt::format("{} at {:.3g} m/s", section.controllers[i].structure,
+                               section.controllers[i].wind_speed)) +
+        (section.controllers[i].is_state_space() ? wrapped(state_space_text(structure) + ".", "  ")
+                                                 : table(rows, "ll"));
     const bool best = recommended != nullptr && same(*recommended);
     text += best ? essential(std::move(part)) : std::move(part);
   }
@@ -270,7 +279,7 @@ Document limits_part(const TuneSection& section) {
   Document text;
   for (const auto& row : section.controllers) {
     const auto& tuning = row.design.tuning;
-    if (row.tuned_for == TunedFor::present || !row.stable()) continue;
+    if (row.tuned_for == TunedFor::present || !row.stable() || row.is_state_space()) continue;
     std::vector<std::string> limits;
     for (const auto& limit : tuning.limits) limits.push_back(limit.description());
     if (limits.empty()) limits = tuning.active_constraints;

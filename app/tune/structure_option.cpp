@@ -6,8 +6,8 @@
 
 namespace boresight::app {
 
-std::vector<design::NamedStructure> structure_option(const io::Case& antenna,
-                                                     const std::vector<std::string>& asked) {
+design::CandidateStructures structure_option(const io::Case& antenna,
+                                             const std::vector<std::string>& asked) {
   try {
     return io::asked_structures(antenna, asked);
   } catch (const InvalidInput& error) {

@@ -10,7 +10,7 @@ namespace boresight::app {
 
 /// io::asked_structures of what --structure names.
 /// @throws InvalidInput that names --structure, as io::asked_structures.
-std::vector<design::NamedStructure> structure_option(const io::Case& antenna,
-                                                     const std::vector<std::string>& asked);
+design::CandidateStructures structure_option(const io::Case& antenna,
+                                             const std::vector<std::string>& asked);
 
 }  // namespace boresight::app

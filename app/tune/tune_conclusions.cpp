@@ -33,11 +33,14 @@ const TunedController* find(const TuneSection& section, const TunedController& l
   return nullptr;
 }
 
-std::string limits_of(const TunedController& row) {
+// Nothing of a state space, whose refinement knows no shadow prices.
+std::string limits_text(const TunedController& row) {
+  if (row.is_state_space()) return "";
   std::vector<std::string> texts;
   for (const auto& limit : row.design.tuning.limits) texts.push_back(limit.description());
   if (texts.empty()) texts = row.design.tuning.active_constraints;
-  return texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; "));
+  return fmt::format(" Active constraints: {}.",
+                     texts.empty() ? "none" : fmt::format("{}", fmt::join(texts, "; ")));
 }
 
 // Behind an rms of the linear plant what the nonlinear antenna says to it; nothing where no
@@ -59,9 +62,9 @@ std::string of_the_linear_plant(const TuneSection& section, const TunedControlle
 void conclude_best(const TuneSection& section, std::vector<std::string>& sentences) {
   std::vector<const TunedController*> concluded;
   const auto say = [&](const TunedController& row, const std::string& subject) {
-    sentences.push_back(fmt::format("At {:.3g} m/s {} with {} rms{}. Active constraints: {}.{}",
-                                    row.wind_speed, subject, mdeg(row.boresight_rms),
-                                    of_the_linear_plant(section, row), limits_of(row),
+    sentences.push_back(fmt::format("At {:.3g} m/s {} with {} rms{}.{}{}", row.wind_speed, subject,
+                                    mdeg(row.boresight_rms), of_the_linear_plant(section, row),
+                                    limits_text(row),
                                     assumed_demand(row.design.tuning, section.demand_assumption)));
     concluded.push_back(&row);
   };
@@ -161,6 +164,18 @@ std::string alternative_text(const TuneSection& section, const design::PointingB
                      why_not_recommended(section, *maximum, recommended));
 }
 
+// Where a state space was asked for and none was found.
+void conclude_state_space(const TuneSection& section, std::vector<std::string>& sentences) {
+  const bool asked =
+      std::ranges::find(section.structures, design::state_space_name) != section.structures.end();
+  if (!asked || !section.not_run.empty() || best_controller(section) == nullptr ||
+      std::ranges::any_of(section.controllers, &TunedController::is_state_space)) {
+    return;
+  }
+  sentences.emplace_back(
+      "No state-space controller (SS) was found that meets every constraint on every plant.");
+}
+
 // The budgets that are needed up to a wind speed, and are met there: by the controller recommended
 // or, where that does not, by another.
 void conclude_budgets(const TuneSection& section, std::vector<std::string>& sentences) {
@@ -233,6 +248,7 @@ std::vector<std::string> conclude(const TuneSection& section) {
     return sentences;
   }
   conclude_best(section, sentences);
+  conclude_state_space(section, sentences);
   conclude_budgets(section, sentences);
   conclude_robustness(section, sentences);
   return sentences;

@@ -316,12 +316,13 @@ std::string why_not_recommended(const TuneSection& section, const TunedControlle
   if (has_idle_corner(section, other) && !has_idle_corner(section, recommended)) {
     reasons.emplace_back("has a corner beyond half the sampling rate, where it has no effect");
   }
-  const auto gains = [](const TunedController& row) {
-    return row.design.tuning.controller.structure.gains().size();
+  const auto parts = [](const TunedController& row) {
+    return row.design.tuning.controller.structure.parts();
   };
-  if (reasons.empty() && gains(other) > gains(recommended)) {
-    reasons.push_back(fmt::format("is better by no more than {:.0f} % with {} gains instead of {}",
-                                  100.0 * negligible_change, gains(other), gains(recommended)));
+  if (reasons.empty() && parts(other) > parts(recommended)) {
+    reasons.push_back(fmt::format("is better by no more than {:.0f} % with {} {} instead of {}",
+                                  100.0 * negligible_change, parts(other),
+                                  other.is_state_space() ? "states" : "gains", parts(recommended)));
   } else if (reasons.empty()) {
     reasons.push_back(fmt::format("is better by no more than {:.0f} %", 100.0 * negligible_change));
   }

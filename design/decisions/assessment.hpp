@@ -25,7 +25,7 @@ enum class LimitCycleVerdict {
 struct Assessment {
   std::string structure;  // decides exact ties, by alphabetical order
   DesignPurpose purpose = DesignPurpose::nominal;
-  std::size_t parts = 0;  // number of gains of the structure
+  std::size_t parts = 0;  // LoopStructure::parts
   bool stable = false;    // on the nominal plant
   /// Stability and constraints on the nominal plant, confirmed by independent code.
   bool verified = false;

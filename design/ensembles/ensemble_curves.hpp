@@ -46,9 +46,10 @@ struct EnsembleCurves {
     Eigen::ArrayXd sensitivity;
   };
   std::array<Worst, 3> worst;
-  Eigen::ArrayXd wind_speed;       // m/s, mean, rising
-  EnsembleBand boresight_rms;      // rad at the sky, per axis
-  StepOverEnsemble rate_step;      // tachometer per rate command, position loop open
+  Eigen::ArrayXd wind_speed;   // m/s, mean, rising
+  EnsembleBand boresight_rms;  // rad at the sky, per axis
+  /// Tachometer per rate command, position loop open; empty for a state space.
+  StepOverEnsemble rate_step;
   StepOverEnsemble position_step;  // encoder per position command
 };
 

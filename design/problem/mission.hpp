@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <boresight/control/controllers/controller.hpp>
@@ -20,6 +21,18 @@ namespace boresight::design {
 struct NamedStructure {
   std::string name;
   control::LoopStructure structure;
+};
+
+/// The user's name for a state-space controller among loop structures.
+inline constexpr std::string_view state_space_name = "SS";
+
+/// The controllers among which a study chooses.
+struct CandidateStructures {
+  std::vector<NamedStructure> loops;
+  /// Also a state-space controller (design_state_space), which starts from the best of the loops.
+  bool state_space = false;
+
+  bool empty() const { return loops.empty() && !state_space; }
 };
 
 /// A controller (structure and gains) with the name of its structure.
@@ -83,12 +96,12 @@ struct Mission {
   std::optional<double> rms_goal;  // rad
   bool minimises_climate = false;  // the climate's mean square instead of one speed's
 
-  std::vector<NamedStructure> structures;  // to be tuned unless others are requested
+  CandidateStructures structures;  // to be tuned unless others are requested
   /// The usual structures with lag, with bounds for this antenna. Searches use them as starts for
   /// others.
   std::vector<NamedStructure> usual_structures;
   std::vector<NamedController> present_controllers;  // controllers in use on the antenna now
-  /// Where the present gains are not known: the name of the present structure, one of `structures`;
+  /// Where the present gains are not known: the name of the present structure, one of the loops;
   /// empty if that is not known either.
   std::string present_structure;
   int starts = 0;          // of each search; 0: the tuner's default

@@ -3,7 +3,10 @@
 namespace boresight::design {
 
 std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended) {
-  if (recommended.design.tuning.status == TuningStatus::unstable) return std::nullopt;
+  if (recommended.design.tuning.status == TuningStatus::unstable ||
+      recommended.structure.state_space() != nullptr) {
+    return std::nullopt;
+  }
   AdjustableLoop loop{recommended.name, recommended.design.tuning.controller, recommended.problem,
                       recommended.goals};
   loop.problem.climate.clear();
@@ -12,7 +15,7 @@ std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommend
 
 std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study,
                                               const TunedController& row) {
-  if (!row.stable()) return std::nullopt;
+  if (!row.stable() || row.is_state_space()) return std::nullopt;
   AdjustableLoop loop{row.structure, row.design.tuning.controller, study.problem, study.goals};
   loop.problem.wind.mean_speed = row.wind_speed;
   loop.problem.climate.clear();

@@ -46,9 +46,11 @@ BenchmarkedController controller_of(const control::Controller& tuned,
   BenchmarkedController controller;
   controller.controller = tuned;
   controller.description = description;
+  const plant::StateSpace* own = tuned.structure.state_space();
   controller.system = control::antenna_state_space_controller(
-      sample_time > 0.0 ? control::sampled_controller(tuned, sample_time)
-                        : control::to_state_space(tuned));
+      own != nullptr      ? *own
+      : sample_time > 0.0 ? control::sampled_controller(tuned, sample_time)
+                          : control::to_state_space(tuned));
   return controller;
 }
 

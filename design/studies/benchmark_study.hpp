@@ -23,7 +23,8 @@ struct BenchmarkedController {
 };
 
 /// The state space of a controller: continuous, or, for sample_time above 0 (s), in the sampled
-/// form that the antenna's computer runs. @throws as control::sampled_controller.
+/// form that the antenna's computer runs. One that is a state space is sampled as it is.
+/// @throws as control::sampled_controller.
 BenchmarkedController controller_of(const control::Controller& controller,
                                     const std::string& description, double sample_time);
 

@@ -9,6 +9,7 @@
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/studies/candidate_controllers.hpp>
 #include <boresight/design/studies/controller_study.hpp>
+#include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
@@ -114,6 +115,14 @@ TunedCandidate tune_candidate(const Mission& mission, const PlantEnsemble& ensem
 TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options) {
+  for (const auto& one : antennas) {
+    if (!options.time_domain && one.structures.state_space) {
+      throw InvalidInput(fmt::format(
+          "{}: expected the time domain for a state space ({}), which starts from the loops that "
+          "are best there, found none",
+          one.name, state_space_name));
+    }
+  }
   // Of each candidate, and of the samples that follow.
   constexpr std::size_t steps = 1000;
   TunedCandidates result;

@@ -22,7 +22,8 @@ struct TunedCandidates {
 /// Runs study_controllers for every antenna. For each structure it returns the design for the
 /// purpose and wind speed of the antenna's recommended controller. These designs are evaluated on
 /// the members and on the nonlinear antenna. `starts`: per search. The result does not depend on
-/// the number of threads.
+/// the number of threads. @throws InvalidInput for a state space without the time domain, and as
+/// study_controllers.
 TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options);

@@ -6,6 +6,8 @@
 
 #include <boresight/design/problem/budget_speeds.hpp>
 #include <boresight/design/studies/controller_study.hpp>
+#include <boresight/design/studies/limit_study.hpp>
+#include <boresight/design/studies/state_space_study.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
@@ -35,6 +37,18 @@ ControllerInTime evaluated(const TimeDomainStudy::Candidate& run, double error) 
 void limit_speeds(const Mission& mission, TunedController& row) {
   row.speed_limits = budget_speeds(tracking_problem(mission), row.design.tuning.controller,
                                    mission.budgets, row.effect());
+}
+
+// Sets the nonlinear results of the controllers that were compared.
+void take_runs(const Mission& mission, const TimeDomainStudy& compared, TuningStudy& section) {
+  const double error = tightest_budget(mission);
+  for (auto& row : section.controllers) {
+    if (!row.usable()) continue;
+    if (const auto run = run_of(compared, row)) {
+      row.in_time = evaluated(*run, error);
+      limit_speeds(mission, row);
+    }
+  }
 }
 
 bool needed(const TuningStudy& section, double speed) {
@@ -71,16 +85,12 @@ void evaluate_in_time(const Mission& mission, const TimeDomainStudy* compared, T
                       std::uint64_t seed, unsigned threads,
                       const std::function<bool()>& interrupted, TuningStudy& section) {
   if (compared == nullptr) return;
+  take_runs(mission, *compared, section);
   const double error = tightest_budget(mission);
   std::vector<TunedController*> to_run;
   for (auto& row : section.controllers) {
-    if (row.tuned_for != purpose || !row.usable()) continue;
-    if (const auto run = run_of(*compared, row)) {
-      row.in_time = evaluated(*run, error);
-      limit_speeds(mission, row);
-    } else if (needed(section, row.wind_speed)) {
-      to_run.push_back(&row);
-    }
+    if (row.tuned_for != purpose || !row.usable() || row.in_time) continue;
+    if (needed(section, row.wind_speed)) to_run.push_back(&row);
   }
   const auto options = comparison_options(mission, seed);
   numerics::for_each_index(to_run.size(), threads, [&](std::size_t i) {
@@ -114,14 +124,49 @@ const TunedController* shown_controller(const TuningStudy& section,
 ControllerStudy study_controllers(const Mission& mission, const PlantEnsemble& ensemble,
                                   const TuneOptions& options, ChoiceDetail detail) {
   ControllerStudy study{tune_structures(mission, ensemble, options), std::nullopt};
+  const auto stopped = [&] { return options.interrupted && options.interrupted(); };
   const TunedController* best = best_controller(study.tuned);
-  if (best == nullptr || (options.interrupted && options.interrupted())) return study;
+  if (best == nullptr || stopped()) return study;
+  const double wind_speed = best->wind_speed;
+  const TunedFor purpose = best->tuned_for;
   auto problem = tracking_problem(mission);
-  problem.wind.mean_speed = best->wind_speed;
-  study.time_domain = choose_in_time_domain(mission, problem, alternatives(study.tuned, *best),
-                                            options.seed, options.threads, detail);
-  evaluate_in_time(mission, study.time_domain ? &*study.time_domain : nullptr, best->tuned_for,
+  problem.wind.mean_speed = wind_speed;
+  std::optional<TimeDomainChoice> choice;
+  if (mission.antenna.nonlinear) {
+    choice.emplace(mission, problem, options.seed, options.threads);
+    for (const auto& one : alternatives(study.tuned, *best)) choice->add(one);
+  }
+  const auto& structures = options.structures.empty() ? mission.structures : options.structures;
+  if (choice) {
+    study.time_domain = choice->chosen(structures.state_space ? ChoiceDetail::compared : detail);
+  }
+  evaluate_in_time(mission, study.time_domain ? &*study.time_domain : nullptr, purpose,
                    options.seed, options.threads, options.interrupted, study.tuned);
+  if (!structures.state_space) return study;
+  const auto not_run = [&] {
+    study.tuned.not_run.push_back({std::string(state_space_name), purpose, wind_speed});
+  };
+  if (stopped()) {
+    not_run();
+    return study;
+  }
+  study.limit = pointing_limit_of(mission, study.tuned, ensemble, wind_speed, options.threads);
+  if (stopped()) {
+    not_run();
+    return study;
+  }
+  const auto row = state_space_candidate(mission, ensemble, study.tuned, *study.limit, wind_speed);
+  if (row) study.tuned.controllers.push_back(*row);
+  if (!choice) return study;
+  if (row && row->usable()) {
+    // Beside nominal designs only one that meets its constraints on every member is fit.
+    if (row->tuned_for != purpose) {
+      choice.emplace(mission, problem, options.seed, options.threads);
+    }
+    choice->add({description_of(*row), row->design.tuning.controller});
+  }
+  study.time_domain = choice->chosen(detail);
+  take_runs(mission, *study.time_domain, study.tuned);
   return study;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include <boresight/design/ensembles/ensemble_curves.hpp>
+#include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 
@@ -16,13 +17,19 @@ struct ControllerStudy {
   /// designs of that speed and purpose for comparison. None without Antenna::nonlinear, and without
   /// a usable design.
   std::optional<TimeDomainStudy> time_domain;
+  /// The pointing limit at the wind speed of best_controller, from which the state-space controller
+  /// comes; only where the structures ask for one.
+  std::optional<PointingLimit> limit = std::nullopt;
 };
 
 /// Tunes and recommends the controllers of every study, so that all recommend the same one. It runs
 /// tune_structures, then simulates the usable designs of best_controller's purpose on the nonlinear
-/// antenna (choose_in_time_domain, evaluate_in_time). An interrupt skips the simulations. `detail`
-/// does not affect the recommendation. The result does not depend on the number of threads.
-/// @throws as tune_structures and verify_in_time.
+/// antenna (TimeDomainChoice, evaluate_in_time). Where the structures ask for a state-space
+/// controller, the one of the pointing limit (pointing_limit_of, state_space_candidate), which
+/// starts from the recommended loops, joins the controllers at that wind speed and is simulated
+/// like them. An interrupt skips the simulations and what follows. `detail` does not affect the
+/// recommendation. The result does not depend on the number of threads.
+/// @throws as tune_structures, pointing_limit_of and verify_in_time.
 ControllerStudy study_controllers(const Mission& mission, const PlantEnsemble& ensemble,
                                   const TuneOptions& options,
                                   ChoiceDetail detail = ChoiceDetail::compared);

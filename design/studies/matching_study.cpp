@@ -310,7 +310,8 @@ void tune_as_built(const Mission& mission, const PlantEnsemble& ensemble,
 
 MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemble,
                              const MatchOptions& options) {
-  const auto& structures = options.structures.empty() ? mission.structures : options.structures;
+  const auto& structures =
+      (options.structures.empty() ? mission.structures : options.structures).loops;
   const auto stopped = [&] { return options.interrupted && options.interrupted(); };
   const plant::Antenna& antenna = mission.antenna;
   MatchingStudy study;

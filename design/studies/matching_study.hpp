@@ -171,7 +171,8 @@ struct MatchingStudy {
 enum class MatchTimeRuns { none, few, all };
 
 struct MatchOptions {
-  std::vector<NamedStructure> structures;  // empty: as the mission has it
+  /// Empty: as the mission has it. A state space is compared as built only, not over inertias.
+  CandidateStructures structures;
   int points = 25;         // evenly spaced in disks, in addition to ratio 1 and as built
   double max_disks = 0.0;  // 0: as the mission has it
   int starts = 4;

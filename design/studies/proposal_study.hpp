@@ -27,7 +27,7 @@ namespace boresight::design {
 struct ProposedAntenna {
   std::string name;
   Mission mission;
-  std::vector<NamedStructure> structures;
+  CandidateStructures structures;
   /// Cost relative to the other proposals, in one currency: 0 for the antenna as it is; none if
   /// unknown.
   std::optional<double> cost;

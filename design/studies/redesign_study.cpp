@@ -39,10 +39,18 @@ const TunedController& recommended_or_first(const ControllerStudy& study) {
   });
 }
 
-// The search of the recommended controller, from other seeds and without its warm starts.
+// What the antenna's variants are tuned with: the recommended structure or, instead of a state
+// space, the best loops at its wind speed, of which there are some: it started from them.
+const TunedController& loops_of(const ControllerStudy& study, const TunedController& best) {
+  return best.is_state_space() ? *recommended_loops(study.tuned, best.wind_speed) : best;
+}
+
+// The search of the recommended controller, from other seeds and without its warm starts; none of a
+// state space, which no random starts made.
 std::vector<DesignTask> seed_tasks(const Mission& mission, const PlantEnsemble& ensemble,
                                    const TunedController& row, std::uint64_t seed) {
   std::vector<DesignTask> tasks;
+  if (row.is_state_space()) return tasks;
   for (int i = 0; i < seed_count; ++i) {
     tasks.push_back(make_task(mission, seed, "as built", mission.antenna,
                               row.design.tuning.controller.structure));
@@ -147,10 +155,10 @@ struct FlywheelPlan {
 };
 
 FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task,
-                            const TunedController& best) {
-  // The recommended gains are one more start of each search.
+                            const TunedController& loops) {
+  // Their gains are one more start of each search.
   constexpr int starts = 6;
-  const control::Controller& recommended = best.design.tuning.controller;
+  const control::Controller& tuned = loops.design.tuning.controller;
   FlywheelPlan plan;
   const plant::Antenna& antenna = mission.antenna;
   for (const auto& [count, label] : task.disks) {
@@ -173,15 +181,15 @@ FlywheelPlan plan_flywheels(const Mission& mission, const RedesignTask& task,
     frictions = {{linear, ""}};
   }
   for (const auto& [friction, name] : frictions) {
-    plan.comparison.series.push_back({name, friction, recommended.structure, {}});
+    plan.comparison.series.push_back({name, friction, tuned.structure, {}});
     for (const auto& row : plan.comparison.rows) {
       plan.tasks.push_back(
           make_task(mission, task.seed, row.label,
                     changed(antenna, {plant::set_to("motor.flywheel_disks", row.disks),
                                       plant::set_to("drive.viscous_friction", friction)}),
-                    recommended.structure));
+                    tuned.structure));
       plan.tasks.back().options.starts = starts;
-      if (best.stable()) plan.tasks.back().options.warm_starts = {recommended.gains};
+      if (loops.stable()) plan.tasks.back().options.warm_starts = {tuned.gains};
     }
   }
   return plan;
@@ -266,13 +274,14 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   how.progress = task.progress;
   ControllerStudy study = study_controllers(mission, ensemble, how, ChoiceDetail::verified);
   const TunedController& best = recommended_or_first(study);
+  const TunedController& loops = loops_of(study, best);
   const auto seeds = seed_tasks(mission, ensemble, best, task.seed);
   std::vector<DesignTask> alternatives;
   for (const auto& [name, antenna] : task.alternatives) {
     alternatives.push_back(
-        make_task(mission, task.seed, name, antenna, best.design.tuning.controller.structure));
+        make_task(mission, task.seed, name, antenna, loops.design.tuning.controller.structure));
   }
-  FlywheelPlan flywheels = plan_flywheels(mission, task, best);
+  FlywheelPlan flywheels = plan_flywheels(mission, task, loops);
 
   std::vector<DesignTask> tasks = seeds;
   tasks.insert(tasks.end(), alternatives.begin(), alternatives.end());
@@ -287,6 +296,7 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
       result.time_domain ? result.time_domain->own().effect().for_budgets() : NonlinearEffect{};
   result.recommended =
       recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
+  if (best.is_state_space()) result.recommended.loops = loops.structure;
   for (const auto* row : tied_with(study.tuned, best)) {
     result.recommended.ties.push_back(description_of(*row));
   }
@@ -295,7 +305,8 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   std::vector<Design> other(first_alternative, first_row);
   improve_along(alternatives, other);
   for (std::size_t i = 0; i < other.size(); ++i) {
-    auto limits = speed_limits(mission, alternatives[i].problem, other[i], effect);
+    auto limits = speed_limits(mission, alternatives[i].problem, other[i],
+                               &loops == &best ? effect : loops.effect().for_budgets());
     result.alternatives.push_back({std::move(other[i]), std::move(limits)});
   }
   result.flywheels = finish_flywheels(std::move(flywheels), first_row, task.threads);

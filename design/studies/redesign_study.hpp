@@ -38,6 +38,8 @@ struct RecommendedDesign {
   /// also at other wind speeds, with other wind models and on ensemble members. Without a
   /// simulation: no effect.
   NonlinearEffect effect;
+  /// Of a state space: the loop structure with which alternatives and flywheels are tuned instead.
+  std::string loops;
   std::vector<std::string> ties;  // description_of other controllers that tied_with finds
   /// The antenna's present gains, evaluated on the same plant; where the mission states none, the
   /// controller of retuned_present.
@@ -60,7 +62,7 @@ struct RecommendedDesign {
     double boresight_rms = 0.0;  // rad
     bool verified = false;
   };
-  std::vector<SeedResult> seeds;
+  std::vector<SeedResult> seeds;  // empty for a state space
   int seeds_within_1_percent = 0;
   struct WindAlternative {
     plant::WindModel model = plant::WindModel::coherence;
@@ -94,11 +96,11 @@ struct RecommendedDesign {
 };
 
 /// An alternative antenna consistent with the evidence, with the recommended structure tuned for
-/// it.
+/// it; instead of a state space, with that of recommended_loops.
 struct AlternativeDesign {
   Design design;
-  /// Wind speed (m/s) up to which each budget is met, with the effect of the recommended design's
-  /// simulation. None without a stable controller.
+  /// Wind speed (m/s) up to which each budget is met, with the effect of the simulation of that
+  /// structure as built. None without a stable controller.
   std::optional<std::vector<double>> speed_limits;
 };
 
@@ -153,8 +155,8 @@ struct RedesignStudy {
 
 /// Evaluates the controller that study_controllers recommends, or the least unfit where none is
 /// fit. It repeats the search from eight seeds, starting with the task's. It tunes the controller's
-/// structure for the alternatives, and at each number of disks with the linear plant's friction and
-/// with the friction curve's slope at the tracking rate.
+/// structure (AlternativeDesign) for the alternatives, and at each number of disks with the linear
+/// plant's friction and with the friction curve's slope at the tracking rate.
 /// @throws as study_controllers.
 RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
                        const RedesignTask& task);

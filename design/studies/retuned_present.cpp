@@ -12,7 +12,8 @@ const TunedController* retuned_present(const TuningStudy& study,
   };
   const TunedController* chosen = nullptr;
   for (const auto& row : study.controllers) {
-    if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed || !row.stable()) {
+    if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed || !row.stable() ||
+        row.is_state_space()) {
       continue;
     }
     if (!present_structure.empty() && row.structure != present_structure) continue;

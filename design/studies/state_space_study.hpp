@@ -6,6 +6,7 @@
 
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
+#include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::design {
@@ -24,6 +25,18 @@ struct StateSpaceStudy {
   /// figure_change from the loops to this controller.
   std::optional<numerics::Interval> change;
 };
+
+/// PointingLimit::refined, in the form of control::antenna_state_space_controller, named "state
+/// space, order N". None without it.
+std::optional<control::Controller> refined_controller(const PointingLimit& limit);
+
+/// The refined controller of a limit at this wind speed (m/s) as one more controller of the study,
+/// of the structure state_space_name: assessed and evaluated as tuned loops are. None without it.
+/// @throws as assess and evaluate.
+std::optional<TunedController> state_space_candidate(const Mission& mission,
+                                                     const PlantEnsemble& ensemble,
+                                                     const TuningStudy& study,
+                                                     const PointingLimit& limit, double wind_speed);
 
 /// The decision between the loops and a state-space controller; the first of these that applies.
 enum class StateSpaceVerdict {

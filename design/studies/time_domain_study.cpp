@@ -179,54 +179,64 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   return section;
 }
 
-std::optional<TimeDomainStudy> choose_in_time_domain(
-    const Mission& mission, const TrackingProblem& problem,
-    const std::vector<NamedController>& controllers, std::uint64_t seed, unsigned threads,
-    ChoiceDetail detail) {
-  if (controllers.empty())
-    throw InvalidInput("choose_in_time_domain: expected controllers, found none");
-  if (!mission.antenna.nonlinear) return std::nullopt;
-  std::vector<TimeDomainStudy> sections;
-  std::vector<Assessment> assessments;
+TimeDomainChoice::TimeDomainChoice(const Mission& mission, TrackingProblem problem,
+                                   std::uint64_t seed, unsigned threads)
+    : mission_(mission),
+      problem_(std::move(problem)),
+      seed_(seed),
+      threads_(threads),
+      winds_(std::make_shared<SharedWinds>()) {}
+
+void TimeDomainChoice::add(const NamedController& controller) {
+  TimeDomainStudy section = plan(mission_, problem_, controller.name, seed_, threads_);
+  section.options.explain = false;
+  section.options.winds = winds_;
+  sections_.push_back(
+      verify(mission_, problem_, controller.controller, std::move(section), first_records));
+  controllers_.push_back(controller);
+}
+
+// The place of the chosen one, which has run in all records.
+std::size_t TimeDomainChoice::settle() {
+  std::vector<Assessment> assessments(controllers_.size());
   const auto assess_again = [&](std::size_t i) {
-    const TimeDomainStudy& seen = sections[i];
-    assessments[i] = assessment_of(controllers[i], seen.result, seen.rms, tightest_budget(mission));
-    count_budgets(mission, problem.wind.mean_speed, assessments[i]);
+    const TimeDomainStudy& seen = sections_[i];
+    assessments[i] =
+        assessment_of(controllers_[i], seen.result, seen.rms, tightest_budget(mission_));
+    count_budgets(mission_, problem_.wind.mean_speed, assessments[i]);
   };
-  const auto winds = std::make_shared<SharedWinds>();
-  for (const auto& one : controllers) {
-    TimeDomainStudy section = plan(mission, problem, one.name, seed, threads);
-    section.options.explain = false;
-    section.options.winds = winds;
-    sections.push_back(verify(mission, problem, one.controller, std::move(section), first_records));
-    assessments.emplace_back();
-    assess_again(sections.size() - 1);
-  }
+  for (std::size_t i = 0; i < controllers_.size(); ++i) assess_again(i);
   std::size_t best = 0;
   for (bool settled = false; !settled;) {
     // What is shown of none that is fit is shown of the least unfit.
     best = recommend(assessments, {.accepted = Fitness::unstable}).winner.value_or(0);
     const Assessment winner = assessments[best];
     settled = true;
-    for (std::size_t i = 0; i < controllers.size(); ++i) {
+    for (std::size_t i = 0; i < controllers_.size(); ++i) {
       if (i != best && !are_tied(assessments[i], winner, contending)) continue;
-      if (!complete_records(mission, problem, controllers[i].controller, sections[i])) continue;
+      if (!complete_records(mission_, problem_, controllers_[i].controller, sections_[i])) continue;
       assess_again(i);
       settled = false;
     }
   }
-  TimeDomainStudy chosen = sections[best];
+  return best;
+}
+
+TimeDomainStudy TimeDomainChoice::chosen(ChoiceDetail detail) {
+  if (controllers_.empty())
+    throw InvalidInput("time domain: expected controllers to choose from, found none");
+  const std::size_t best = settle();
+  TimeDomainStudy chosen = sections_[best];
   if (detail == ChoiceDetail::verified) {
     chosen.options.explain = chosen.options.second_integrator = true;
     explain_in_wind(
-        problem, loop_of(mission, problem, controllers[best].controller, chosen.encoder_resolution),
+        problem_,
+        loop_of(mission_, problem_, controllers_[best].controller, chosen.encoder_resolution),
         chosen.options, chosen.result);
-    add_own_present(mission, problem, chosen);
+    add_own_present(mission_, problem_, chosen);
   }
-  if (sections.size() == 1) return chosen;
-  for (auto& one : sections) {
-    chosen.candidates.push_back({one.controller, std::move(one.result), std::move(one.rms)});
-  }
+  if (sections_.size() == 1) return chosen;
+  for (const auto& one : sections_) chosen.candidates.push_back(one.own());
   return chosen;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 #include <boresight/design/decisions/recommend.hpp>
 #include <boresight/design/problem/mission.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
+#include <boresight/design/verification/shared_winds.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
 
 namespace boresight::design {
@@ -101,16 +104,35 @@ LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
                          const std::optional<SimulatedRms>& expected, double budget);
 
-/// Among controllers that meet every constraint, the one that recommend() chooses by their
-/// simulations and the budgets required in the problem's wind, whatever its fitness. All run in
-/// four records of wind; the chosen one, those tied with it and those within a tenth of its ranking
-/// figure run in all records of SimulatedRmsOptions. `detail`: of
-/// its results; the others' results are its candidates. None without Antenna::nonlinear.
-/// @throws InvalidInput without controllers; as verify_in_time.
-std::optional<TimeDomainStudy> choose_in_time_domain(
-    const Mission& mission, const TrackingProblem& problem,
-    const std::vector<NamedController>& controllers, std::uint64_t seed, unsigned threads,
-    ChoiceDetail detail);
+/// The choice among controllers that meet every constraint, on the nonlinear antenna of a mission,
+/// which must outlive it.
+class TimeDomainChoice {
+ public:
+  /// The problem is one of the mission, which must have Antenna::nonlinear.
+  TimeDomainChoice(const Mission& mission, TrackingProblem problem, std::uint64_t seed,
+                   unsigned threads);
+
+  /// Runs a controller in four records of wind. @throws as verify_in_time.
+  void add(const NamedController& controller);
+
+  /// The controller that recommend() chooses by the simulations and the budgets required in the
+  /// problem's wind, whatever its fitness. It, those tied with it and those within a tenth of its
+  /// ranking figure run in all records of SimulatedRmsOptions. `detail`: of its results; the
+  /// others' results are its candidates. More controllers can be added afterwards.
+  /// @throws InvalidInput without controllers; as verify_in_time.
+  TimeDomainStudy chosen(ChoiceDetail detail);
+
+ private:
+  std::size_t settle();
+
+  const Mission& mission_;
+  TrackingProblem problem_;
+  std::uint64_t seed_;
+  unsigned threads_;
+  std::shared_ptr<SharedWinds> winds_;
+  std::vector<NamedController> controllers_;
+  std::vector<TimeDomainStudy> sections_;
+};
 
 /// Options for comparing several controllers on the nonlinear antenna: as verify_in_time_domain,
 /// without the slew and without separate influences.

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/design/problem/budget_speeds.hpp>
+#include <boresight/design/studies/controller_at_sky.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
@@ -32,11 +32,7 @@ class Study {
  public:
   Study(const Mission& mission, const PlantEnsemble& ensemble, const TuneOptions& options,
         const TuningStudy& section)
-      : mission_(mission),
-        ensemble_(ensemble),
-        options_(options),
-        section_(section),
-        problem_(tracking_problem(mission)) {
+      : mission_(mission), ensemble_(ensemble), options_(options), section_(section) {
     if (section.minimises_climate && mission.climate.empty()) {
       throw InvalidInput(
           "tune: expected [[wind.climate]] in the case for the goal rms_over = "
@@ -51,7 +47,8 @@ class Study {
       return;
     }
     TunedController row = new_row(unit, TunedFor::present);
-    row.design = assess(problem_at(unit.wind_speed), *unit.present, section_.goals);
+    row.design =
+        assess(problem_at(mission_, section_, unit.wind_speed), *unit.present, section_.goals);
     unit.controllers.push_back(std::move(row));
   }
 
@@ -76,25 +73,11 @@ class Study {
     }
   }
 
-  // What the controllers mean at the sky and on the ensemble.
   void finish(TuningUnit& unit) const {
-    for (auto& row : unit.controllers) {
-      finish(row);
-      const bool every_member = !row.ensemble || row.ensemble->within_constraints ==
-                                                     static_cast<int>(row.ensemble->members.size());
-      row.constraints_met = row.stable() && row.design.tuning.status == TuningStatus::optimal &&
-                            (row.tuned_for != TunedFor::robust || every_member);
-    }
+    for (auto& row : unit.controllers) evaluate_at_sky(mission_, ensemble_, section_, row);
   }
 
  private:
-  TrackingProblem problem_at(double wind_speed) const {
-    TrackingProblem problem = problem_;
-    problem.wind.mean_speed = wind_speed;
-    if (section_.minimises_climate) problem.climate = mission_.climate;
-    return problem;
-  }
-
   static TunedController new_row(const TuningUnit& unit, TunedFor purpose) {
     TunedController row;
     row.structure = unit.name;
@@ -108,7 +91,7 @@ class Study {
   DesignTask task_of(const TuningUnit& unit, TunedFor purpose) const {
     DesignTask task;
     task.name = unit.name;
-    task.problem = problem_at(unit.wind_speed);
+    task.problem = problem_at(mission_, section_, unit.wind_speed);
     task.structure = unit.structure;
     task.goals = section_.goals;
     task.options.seed = options_.seed;
@@ -140,39 +123,10 @@ class Study {
     unit.controllers.push_back(std::move(row));
   }
 
-  void finish(TunedController& row) const {
-    const control::Controller& controller = row.design.tuning.controller;
-    if (!row.stable()) {
-      row.boresight_rms = std::numeric_limits<double>::quiet_NaN();
-      row.speed_limits.assign(section_.budgets.size(), row.boresight_rms);
-      return;
-    }
-    TrackingProblem problem = problem_;
-    problem.wind.mean_speed = row.wind_speed;
-    control::LoopEvaluator evaluator = make_evaluator(problem);
-    const auto evaluation = evaluator.evaluate(controller, false);
-    row.boresight_rms = std::sqrt(evaluation.boresight_variance()) / problem.gear_ratio;
-    row.speed_limits = budget_speeds(problem, evaluator, controller, evaluation.noise_variance,
-                                     section_.budgets, NonlinearEffect{});
-    if (!mission_.climate.empty()) {
-      problem.climate = mission_.climate;
-      row.climate_rms =
-          std::sqrt(make_evaluator(problem).evaluate(controller, false).boresight_variance()) /
-          problem.gear_ratio;
-    }
-    if (!ensemble_.members.empty()) {
-      row.ensemble =
-          evaluate(problem_at(row.wind_speed), ensemble_.members, controller, section_.goals, 1);
-    }
-    row.trade = position_gain_trade(problem, row.design.tuning, row.boresight_rms, section_.goals,
-                                    ensemble_.members);
-  }
-
   const Mission& mission_;
   const PlantEnsemble& ensemble_;
   const TuneOptions& options_;
   const TuningStudy& section_;
-  TrackingProblem problem_;
 };
 
 // The speeds asked for, or the design's, and those of budgets that must be met.
@@ -287,14 +241,19 @@ namespace {
 struct Choice {
   std::vector<const TunedController*> rows;
   Recommendation recommendation;
+
+  const TunedController* winner() const {
+    return recommendation.winner ? rows[*recommendation.winner] : nullptr;
+  }
 };
 
 Choice choose_at(const TuningStudy& section, double wind_speed, bool with_simulation,
-                 const RecommendOptions& options) {
+                 const RecommendOptions& options, bool loops_alone = false) {
   Choice choice;
   std::vector<Assessment> candidates;
   for (const auto& row : section.controllers) {
     if (row.tuned_for == TunedFor::present || row.wind_speed != wind_speed) continue;
+    if (loops_alone && row.is_state_space()) continue;
     choice.rows.push_back(&row);
     candidates.push_back(assessment_of(section, row, with_simulation));
   }
@@ -306,9 +265,14 @@ Choice choose_at(const TuningStudy& section, double wind_speed, bool with_simula
 
 const TunedController* recommended_at(const TuningStudy& section, double wind_speed,
                                       bool with_simulation, const RecommendOptions& options) {
-  const Choice choice = choose_at(section, wind_speed, with_simulation, options);
-  const auto winner = choice.recommendation.winner;
-  return winner ? choice.rows[*winner] : nullptr;
+  return choose_at(section, wind_speed, with_simulation, options).winner();
+}
+
+const TunedController* recommended_loops(const TuningStudy& section, double wind_speed) {
+  constexpr bool with_simulation = true, loops_alone = true;
+  return choose_at(section, wind_speed, with_simulation, {.accepted = Fitness::unstable},
+                   loops_alone)
+      .winner();
 }
 
 std::vector<const TunedController*> tied_with(const TuningStudy& section,
@@ -377,7 +341,8 @@ TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensembl
                             const TuneOptions& options) {
   const auto& structures = options.structures.empty() ? mission.structures : options.structures;
   TuningStudy section;
-  for (const auto& structure : structures) section.structures.push_back(structure.name);
+  for (const auto& structure : structures.loops) section.structures.push_back(structure.name);
+  if (structures.state_space) section.structures.emplace_back(state_space_name);
   section.wind_speeds = speeds_of(mission, options);
   section.goals = constraints(mission);
   validate(section.goals);
@@ -397,7 +362,7 @@ TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensembl
   section.torque_limited_wind_speed = torque_limited_wind_speed(mission);
   section.wind_model = section.problem.wind.model;
   section.climate = mission.climate_parts;
-  auto units = units_of(mission, structures, section.wind_speeds);
+  auto units = units_of(mission, structures.loops, section.wind_speeds);
   std::vector<std::vector<std::size_t>> parts;
   for (const auto& unit : units) parts.push_back(unit.parts);
   numerics::StepCounter counter(steps_of_search(parts), options.progress);

@@ -74,6 +74,9 @@ struct TunedController {
   /// True if its error is within an rms (rad), by count_budget. A controller that is left_out may
   /// still meet a budget that is not the tightest.
   bool keeps(double rms) const;
+  bool is_state_space() const {
+    return design.tuning.controller.structure.state_space() != nullptr;
+  }
   bool stable() const { return design.tuning.status != TuningStatus::unstable; }
   bool usable() const { return constraints_met && design.verification.passed; }
 };
@@ -111,7 +114,7 @@ struct TuningStudy {
 
 /// What to tune; empty or 0: as the mission has it.
 struct TuneOptions {
-  std::vector<NamedStructure> structures;
+  CandidateStructures structures;
   std::vector<double> wind_speeds;  // m/s
   int starts = 0;
   std::uint64_t seed = 1;
@@ -122,9 +125,9 @@ struct TuneOptions {
   std::function<bool()> interrupted;
 };
 
-/// Tunes each structure at each wind speed, for the mission's plant alone and for every member of
-/// the ensemble, and evaluates these controllers and the present gains. The result does not depend
-/// on the number of threads.
+/// Tunes each loop structure at each wind speed, for the mission's plant alone and for every member
+/// of the ensemble, and evaluates these controllers and the present gains. A state-space controller
+/// is left to study_controllers. The result does not depend on the number of threads.
 /// @throws InvalidInput for a speed outside 0.1 to 60 m/s, and for goals that validate or
 /// constraints reject.
 TuningStudy tune_structures(const Mission& mission, const PlantEnsemble& ensemble,
@@ -166,5 +169,7 @@ std::optional<numerics::Interval> figure_change(const TunedController& from,
 /// recommend() over the tuned controllers of one wind speed. Null without a winner.
 const TunedController* recommended_at(const TuningStudy& study, double wind_speed,
                                       bool with_simulation, const RecommendOptions& options);
+/// The same over those that are loops with gains, whatever their fitness. Null without any.
+const TunedController* recommended_loops(const TuningStudy& study, double wind_speed);
 
 }  // namespace boresight::design

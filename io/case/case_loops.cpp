@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/control/controllers/usual_structures.hpp>
+#include <boresight/design/problem/mission.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_sections.hpp>
 #include <boresight/io/case/case_tuning.hpp>
@@ -130,7 +131,7 @@ void append(std::vector<Quantity>& all, const std::vector<Quantity>& some) {
 LoopEntry read_loop(TableReader& table, std::set<std::string>& names) {
   LoopEntry entry;
   const std::string name = read_name(table, names);
-  if (is_usual(name)) {
+  if (is_usual(name) || name == design::state_space_name) {
     table.refuse("name", "expected a name that no usual structure has, found " + in_quotes(name));
   }
   std::vector<control::LoopBlock> blocks;
@@ -341,6 +342,7 @@ void read_loops(TableReader& file, Case& antenna) {
     antenna.tuning->starts = tuning->optional_integer("starts", 1, 100000).value_or(0);
     tuning->finish();
     for (const auto& name : antenna.tuning->structures) {
+      if (name == design::state_space_name) continue;
       try {
         loop_structure(antenna, name);
       } catch (const InvalidInput& error) {

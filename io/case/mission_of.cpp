@@ -215,20 +215,24 @@ double tightest_budget(const Case& antenna) {
   return tightest_budget(mission);
 }
 
-std::vector<design::NamedStructure> asked_structures(const Case& stated,
-                                                     std::vector<std::string> names) {
+design::CandidateStructures asked_structures(const Case& stated, std::vector<std::string> names) {
   if (names.empty()) names = stated.tuning->structures;
-  if (names.empty()) {
-    names = {"PI", "LL", "DPF", "FULL", "LL+L", "FULL+L+C"};
-    for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
-  }
-  std::vector<design::NamedStructure> structures;
   for (const auto& name : names) {
-    structures.push_back({name, loop_structure(stated, name)});
     if (std::ranges::count(names, name) != 1) {
       throw InvalidInput(fmt::format("expected each structure once, found '{}' again", name));
     }
   }
+  design::CandidateStructures structures;
+  structures.state_space = std::erase(names, design::state_space_name) > 0;
+  if (names.empty()) {
+    names = stated.tuning->structures;
+    std::erase(names, design::state_space_name);
+  }
+  if (names.empty()) {
+    names = {"PI", "LL", "DPF", "FULL", "LL+L", "FULL+L+C"};
+    for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
+  }
+  for (const auto& name : names) structures.loops.push_back({name, loop_structure(stated, name)});
   return structures;
 }
 
@@ -258,11 +262,10 @@ design::Mission mission_of(const Case& stated) {
   if (stated.present_gains && stated.present_gains->gains.empty()) {
     const control::LoopStructure& present = stated.present_gains->structure;
     mission.present_structure = short_name(present);
-    const auto tuned = std::ranges::find(mission.structures, mission.present_structure,
-                                         &design::NamedStructure::name);
-    if (tuned == mission.structures.end()) {
-      mission.structures.push_back({mission.present_structure, present});
-    }
+    auto& loops = mission.structures.loops;
+    const auto tuned =
+        std::ranges::find(loops, mission.present_structure, &design::NamedStructure::name);
+    if (tuned == loops.end()) loops.push_back({mission.present_structure, present});
   }
   mission.starts = static_cast<int>(stated.tuning->starts);
   if (!stated.matching->disks.empty()) mission.max_disks = stated.matching->disks.back();

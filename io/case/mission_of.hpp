@@ -14,11 +14,12 @@ namespace boresight::io {
 /// @throws InvalidInput as antenna_of.
 design::Mission mission_of(const Case& stated);
 
-/// The loop structures of these names, or without names those that the case's [tuning] asks for,
-/// else PI, LL, DPF, FULL, LL+L, FULL+L+C and the case's own.
+/// The structures of these names, or without names those that the case's [tuning] asks for, else
+/// PI, LL, DPF, FULL, LL+L, FULL+L+C and the case's own. design::state_space_name asks for a
+/// state-space controller as well; alone, beside the loops that no names would give.
 /// @throws InvalidInput as loop_structure, and for a name given twice.
-std::vector<design::NamedStructure> asked_structures(const Case& stated,
-                                                     std::vector<std::string> names = {});
+design::CandidateStructures asked_structures(const Case& stated,
+                                             std::vector<std::string> names = {});
 
 /// The antenna of a case (antenna_of) with these changes, in the case's wind.
 /// @throws InvalidInput as antenna_of, plant::changed and plant::linear_plant.

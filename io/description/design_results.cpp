@@ -27,17 +27,16 @@ KeyUnit gain_unit(const std::string& unit) {
   return {.suffix = suffixes.at(unit)};
 }
 
-// Those of the usual structures, of which every one has a rate and a position gain; a structure of
-// the case's own has others.
+// Those of the usual structures; a structure of the case's own has others, a state space none.
 void describe_usual_gains(Visitor& v) {
   const NumberForm known{.above = 0.0, .finite = true};
   const auto gain = [&](std::string_view key, const KeyUnit& of, std::string_view meaning) {
     v.number(key, 0.0, of, meaning, known);
   };
   const KeyUnit& corner = unit::radian_per_second;
-  gain("rate_gain", unit::ratio, "kr");
-  gain("position_gain", unit::per_second, "kp");
   v.members_if(false, [&] {
+    gain("rate_gain", unit::ratio, "kr");
+    gain("position_gain", unit::per_second, "kp");
     gain("rate_integral_corner", corner, "wi");
     gain("rate_lead_corner", corner, "wz; of a lead");
     gain("rate_lag_corner", corner, "wp; absent without lag");
@@ -139,7 +138,8 @@ void describe(Visitor& v, const design::Design& design) {
   v.text_or_null("verification_failure", check.failure, "Why it is not verified; null if it is.");
   v.group("gains",
           "rate: kr (1 + wi/s)(1 + s/wz)/(1 + s/wp), pressure: kT s/(s + wd), position: kp (1 + "
-          "wip/s), compliance: cs/(1 + s/wcs), notch; others of structures of the case's own.",
+          "wip/s), compliance: cs/(1 + s/wcs), notch; others of structures of the case's own; none "
+          "of a state space.",
           [&] { describe_gains(v, tuning.controller); });
   v.number("boresight_rms", design.boresight_rms, unit::millidegree,
            "Boresight error in wind and sensor noise.", positive);

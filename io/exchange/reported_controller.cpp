@@ -4,11 +4,15 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/decisions/recommend.hpp>
 #include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
+#include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
+#include <boresight/io/exchange/sampled_controller_file.hpp>
 #include <boresight/io/files/renamed_keys.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -29,7 +33,9 @@ design::Assessment reported_assessment(const Json& row) {
   if (rms.is_number()) result.linear_rms = rms.get<double>() * millidegree;
   result.nominal_constraints_met = row.at("constraints_met").get<bool>();
   result.member_constraints_met = robust && result.nominal_constraints_met;
+  // A state space, which has none, has more parts than any gains.
   if (row.contains("gains_as_written")) result.parts = row.at("gains_as_written").size();
+  if (row.at("structure") == design::state_space_name) result.parts = control::max_gains + 1;
   if (row.contains("design") && row.at("design").is_object()) {
     result.verified = row.at("design").value("verified", true);
   }
@@ -91,6 +97,21 @@ control::Controller controller_from_design(const Case& antenna, const std::strin
   return controller;
 }
 
+// The matrices of a state space are in the report's linear models.
+bool has_state_space(const Json& report) {
+  return report.value("linear_models", Json::object()).contains("state_space_controller");
+}
+
+control::Controller state_space_of(const Case& antenna, const std::string& path,
+                                   const std::string& text) {
+  ControllerNames names;
+  names.part = "state_space_controller";
+  const double sample_time = control::sample_time_of(make_problem(antenna).delay);
+  return sampled_controller_of(parse_controller(text, path, gear_ratio(antenna), names), path,
+                               sample_time)
+      .controller;
+}
+
 }  // namespace
 
 control::LoopStructure structure_named(const Case& antenna, const std::string& name) {
@@ -119,12 +140,20 @@ GainsOfFile controller_of_report(const Case& antenna, const std::string& text,
                    accepted < design::Fitness::unverified ? " that meets its constraints" : ""));
       }
       const auto name = best->at("structure").get<std::string>();
-      return {controller_from_design(antenna, path, best->at("design"), name), name,
-              best->at("tuned_for").get<std::string>()};
+      const Json& design = best->at("design");
+      return {name == design::state_space_name
+                  ? state_space_of(antenna, path, text)
+                  : controller_from_design(antenna, path, design, name),
+              name, best->at("tuned_for").get<std::string>()};
     }
     if (report.contains("tuning")) {
       const Json& design = report.at("tuning").at("design");
       const auto name = design.at("structure").get<std::string>();
+      const bool asked = structure == design::state_space_name;
+      if (asked && !has_state_space(report)) refuse(path, fmt::format("only one of {}", name));
+      if (has_state_space(report) && (structure.empty() || asked)) {
+        return {state_space_of(antenna, path, text), std::string(design::state_space_name), ""};
+      }
       if (!structure.empty() &&
           loop_structure(antenna, structure) != structure_named(antenna, name)) {
         refuse(path, fmt::format("only one of {}", name));

@@ -15,7 +15,11 @@ namespace boresight::io {
 
 SampledControllerFile read_sampled_controller(const std::string& path, double gear_ratio,
                                               double sample_time, const ControllerNames& names) {
-  ControllerFile file = read_controller(path, gear_ratio, names);
+  return sampled_controller_of(read_controller(path, gear_ratio, names), path, sample_time);
+}
+
+SampledControllerFile sampled_controller_of(ControllerFile file, const std::string& path,
+                                            double sample_time) {
   std::vector<std::string> sensors;
   for (const char* sensor : control::sensor_names) {
     if (std::ranges::count(file.system.inputs, sensor) > 0) sensors.emplace_back(sensor);

@@ -22,5 +22,8 @@ struct SampledControllerFile {
 SampledControllerFile read_sampled_controller(const std::string& path, double gear_ratio,
                                               double sample_time,
                                               const ControllerNames& names = {});
+/// The same of what read_controller or parse_controller made of the file. `path` is for messages.
+SampledControllerFile sampled_controller_of(ControllerFile file, const std::string& path,
+                                            double sample_time);
 
 }  // namespace boresight::io

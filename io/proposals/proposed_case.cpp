@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/design/problem/mission.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -68,6 +69,7 @@ class Application {
  private:
   void check_structures() const {
     for (const auto& name : proposal_.structures) {
+      if (name == design::state_space_name) continue;
       try {
         loop_structure(before_, name);
       } catch (const InvalidInput& error) {

@@ -189,9 +189,9 @@ TEST(CaseTuning, TakesThePresentStructureWithoutGains) {
   const design::Mission mission = io::mission_of(antenna);
   EXPECT_EQ(mission.present_structure, "LL+N");
   // It is tuned beside the usual ones, once.
-  EXPECT_EQ(std::ranges::count(mission.structures, "LL+N", &design::NamedStructure::name), 1);
-  EXPECT_EQ(io::mission_of(with("[gains]\nstructure = 'PI'\n")).structures.size() + 1,
-            mission.structures.size());
+  EXPECT_EQ(std::ranges::count(mission.structures.loops, "LL+N", &design::NamedStructure::name), 1);
+  EXPECT_EQ(io::mission_of(with("[gains]\nstructure = 'PI'\n")).structures.loops.size() + 1,
+            mission.structures.loops.size());
   EXPECT_EQ(io::mission_of(with(tables())).present_structure, "");
   EXPECT_THAT(refusal("[gains]\nstructure = 'PI'\nkr = '1'\n"), HasSubstr("gains.wi: "));
   EXPECT_THAT(refusal("[gains]\nstructure = 'PI'\nkq = '1'\n"),

@@ -419,38 +419,37 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   const design::Mission mission = mission_of(antenna);
   const auto problem = tracking_problem(mission);
   const control::LoopStructure& pi = control::LoopStructure::pi_with_lag();
-  const std::vector<design::NamedController> controllers{
-      {"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}},
-      {"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}},
-      {"oscillates", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}}};
-  const auto chosen =
-      choose_in_time_domain(mission, problem, controllers, 1, 2, design::ChoiceDetail::verified);
-  ASSERT_TRUE(chosen);
-  EXPECT_EQ(chosen->controller, "tuned");
-  ASSERT_EQ(chosen->candidates.size(), 3U);
-  EXPECT_LT(chosen->candidates[1].result.wind.boresight_rms,
-            chosen->candidates[0].result.wind.boresight_rms);
-  EXPECT_EQ(chosen->candidates[1].result.wind.boresight_rms, chosen->result.wind.boresight_rms);
-  ASSERT_TRUE(chosen->rms);
-  EXPECT_EQ(chosen->candidates[1].simulated_rms(), chosen->rms->rms.value);
-  EXPECT_GT(chosen->candidates[2].simulated_rms(), chosen->candidates[1].simulated_rms());
+  design::TimeDomainChoice choice(mission, problem, 1, 2);
+  EXPECT_THROW(choice.chosen(design::ChoiceDetail::compared), InvalidInput);
+  choice.add({"slow", {pi, {0.1, 0.42, 2.6, 3.0, 0.2}}});
+  choice.add({"oscillates", {pi, {5.0, 0.42, 2.6, 30.0, 0.2}}});
+  EXPECT_EQ(choice.chosen(design::ChoiceDetail::compared).controller, "slow");
+  // One that is added after a choice.
+  choice.add({"tuned", {pi, {0.15873, 0.42068, 2.6277, 10.257, 0.23532}}});
+  const auto chosen = choice.chosen(design::ChoiceDetail::verified);
+  EXPECT_EQ(chosen.controller, "tuned");
+  ASSERT_EQ(chosen.candidates.size(), 3U);
+  EXPECT_LT(chosen.candidates[2].result.wind.boresight_rms,
+            chosen.candidates[0].result.wind.boresight_rms);
+  EXPECT_EQ(chosen.candidates[2].result.wind.boresight_rms, chosen.result.wind.boresight_rms);
+  ASSERT_TRUE(chosen.rms);
+  EXPECT_EQ(chosen.candidates[2].simulated_rms(), chosen.rms->rms.value);
+  EXPECT_GT(chosen.candidates[1].simulated_rms(), chosen.candidates[2].simulated_rms());
   // One that is far behind is not run in all records.
-  EXPECT_EQ(chosen->rms->records, 10);
-  EXPECT_EQ(chosen->candidates[0].rms->records, 4);
+  EXPECT_EQ(chosen.rms->records, 10);
+  EXPECT_EQ(chosen.candidates[0].rms->records, 4);
   // By the same winds: far apart, and a tie with itself.
-  const auto change = figure_change(chosen->candidates[1], chosen->candidates[0]);
+  const auto change = figure_change(chosen.candidates[2], chosen.candidates[0]);
   ASSERT_TRUE(change);
   EXPECT_GT(change->lower, 0.02);
-  EXPECT_EQ(figure_change(chosen->own(), chosen->candidates[1])->value, 0.0);
+  EXPECT_EQ(figure_change(chosen.own(), chosen.candidates[2])->value, 0.0);
   // Nothing is compared with a run that was lost.
-  auto lost = chosen->candidates[2];
+  auto lost = chosen.candidates[1];
   lost.rms.reset();
   lost.result.wind.boresight_rms = nan;
   EXPECT_TRUE(std::isnan(lost.simulated_rms()));
-  EXPECT_FALSE(figure_change(chosen->own(), lost));
-  EXPECT_FALSE(chosen->result.wind.influences.empty());
-  EXPECT_THROW(choose_in_time_domain(mission, problem, {}, 1, 1, design::ChoiceDetail::compared),
-               InvalidInput);
+  EXPECT_FALSE(figure_change(chosen.own(), lost));
+  EXPECT_FALSE(chosen.result.wind.influences.empty());
 }
 
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "half_of_the_rate_error.hpp"
 #include <boresight/design/studies/adjustable_loop.hpp>
 
 namespace boresight::design {
@@ -36,6 +37,16 @@ TEST(AdjustableLoop, IsNoneWithoutAStableController) {
   EXPECT_FALSE(adjustable_loop(recommended).has_value());
   recommended.design.tuning.status = TuningStatus::infeasible;
   EXPECT_TRUE(adjustable_loop(recommended).has_value());
+}
+
+TEST(AdjustableLoop, IsNoneOfAStateSpaceWhichHasNoGains) {
+  TunedController row = tuned_at(10.0);
+  row.design.tuning.controller = {reference::half_of_the_rate_error(), {}};
+  EXPECT_FALSE(adjustable_loop(TuningStudy{}, row).has_value());
+  RecommendedDesign recommended;
+  recommended.design = row.design;
+  recommended.structure = row.design.tuning.controller.structure;
+  EXPECT_FALSE(adjustable_loop(recommended).has_value());
 }
 
 }  // namespace

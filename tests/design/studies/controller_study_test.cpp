@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -5,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
+#include "half_of_the_rate_error.hpp"
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -93,7 +95,7 @@ TEST(TunedController, AddsTheLimitCycleInQuadrature) {
 
 TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOut) {
   Mission mission = reference::demo_mission();
-  mission.structures = {{"PI", control::LoopStructure::named("PI")}};
+  mission.structures.loops = {{"PI", control::LoopStructure::named("PI")}};
   mission.starts = 2;
   const PlantEnsemble ensemble{EnsembleSource::ranges,
                                {{"nominal", linear_plant(mission.antenna)}}};
@@ -119,7 +121,7 @@ TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOu
 // What the study recommends is what ran on the nonlinear antenna, and its own gains.
 TEST(StudyControllers, RunsWhatItRecommendsOnTheNonlinearAntenna) {
   Mission mission = reference::demo_mission();
-  mission.structures = {{"PI", control::LoopStructure::named("PI")}};
+  mission.structures.loops = {{"PI", control::LoopStructure::named("PI")}};
   mission.starts = 2;
   const PlantEnsemble ensemble{EnsembleSource::ranges,
                                {{"nominal", linear_plant(mission.antenna)}}};
@@ -137,6 +139,66 @@ TEST(StudyControllers, RunsWhatItRecommendsOnTheNonlinearAntenna) {
   EXPECT_EQ(shown_controller(study.tuned, &*study.time_domain), best);
   mission.antenna.nonlinear.reset();
   EXPECT_FALSE(study_controllers(mission, ensemble, {}).time_domain.has_value());
+}
+
+// Beside a state space: the best loops, though none of them would be recommended.
+TEST(RecommendedLoops, AreTheLeastUnfitWithoutTheStateSpace) {
+  TuningStudy study =
+      study_of({tuned_row("PI", TunedFor::robust, 0.5), tuned_row("FULL", TunedFor::robust, 0.4),
+                tuned_row("LL", TunedFor::robust, 0.2)});
+  for (std::size_t i = 0; i < 2; ++i) {
+    study.controllers[i].in_time =
+        ControllerInTime{.limit_cycle_free = false,
+                         .limit_cycles = millidegree,
+                         .boresight_rms = study.controllers[i].boresight_rms};
+  }
+  TunedController& states = study.controllers[2];
+  states.structure = "SS";
+  states.design.tuning.controller.structure = reference::half_of_the_rate_error();
+  states.in_time = ControllerInTime{.boresight_rms = 0.2 * millidegree};
+  EXPECT_EQ(recommended_tuned_controller(study, 10.0), &states);
+  EXPECT_EQ(recommended_loops(study, 10.0), &study.controllers[1]);
+  EXPECT_EQ(recommended_loops(study, 12.0), nullptr);
+}
+
+// A state space is compared with the loops only where it is asked for; then it starts from them,
+// and the choice is that of recommend() among all.
+TEST(StudyControllers, ComparesAStateSpaceWhereTheStructuresAskForOne) {
+  Mission mission = reference::demo_mission();
+  mission.structures.loops = {{"PI", control::LoopStructure::named("PI")}};
+  mission.starts = 2;
+  const PlantEnsemble ensemble{EnsembleSource::ranges,
+                               {{"nominal", linear_plant(mission.antenna)}}};
+  const ControllerStudy loops = study_controllers(mission, ensemble, {});
+  EXPECT_FALSE(loops.limit);
+  mission.structures.state_space = true;
+  TuneOptions options;
+  options.threads = 2;
+  const ControllerStudy study = study_controllers(mission, ensemble, options);
+  EXPECT_THAT(study.tuned.structures, testing::ElementsAre("PI", "SS"));
+  ASSERT_TRUE(study.limit);
+  ASSERT_TRUE(study.limit->refined);
+  ASSERT_EQ(study.tuned.controllers.size(), loops.tuned.controllers.size() + 1);
+  const TunedController& found = study.tuned.controllers.back();
+  ASSERT_TRUE(found.is_state_space());
+  EXPECT_TRUE(found.usable()) << found.design.verification.failure;
+  ASSERT_TRUE(study.time_domain);
+  ASSERT_TRUE(run_of(*study.time_domain, found));
+  ASSERT_TRUE(found.in_time);
+  EXPECT_EQ(found.in_time->rms(), run_of(*study.time_domain, found)->simulated_rms());
+  EXPECT_NEAR(found.boresight_rms / study.limit->refined->nominal.boresight_rms, 1.0, 2e-2);
+  // The loops are the same as without it, and would be recommended without it.
+  const TunedController* of_loops = recommended_loops(study.tuned, found.wind_speed);
+  const TunedController* alone = recommended_tuned_controller(loops.tuned);
+  ASSERT_TRUE(of_loops != nullptr && alone != nullptr);
+  EXPECT_EQ(of_loops->design.tuning.controller.gains, alone->design.tuning.controller.gains);
+  const TunedController* recommended = recommended_tuned_controller(study.tuned);
+  ASSERT_NE(recommended, nullptr);
+  const Assessment one = assessment_of(study.tuned, found);
+  const Assessment other = assessment_of(study.tuned, *of_loops);
+  const Assessment& least = ranking_figure(one) < ranking_figure(other) ? one : other;
+  EXPECT_TRUE(are_tied(assessment_of(study.tuned, *recommended), least, 0.02));
+  EXPECT_EQ(study.time_domain->controller, description_of(*recommended));
 }
 
 }  // namespace

@@ -10,8 +10,8 @@ inline design::Mission demo_mission() {
   design::Mission mission;
   mission.antenna = plant::demo_antenna();
   mission.wind = {wind_site(), plant::WindModel::coherence, 10.0};
-  mission.structures = {{"PI-0", control::LoopStructure::named("PI-0")},
-                        {"PI", control::LoopStructure::named("PI")}};
+  mission.structures.loops = {{"PI-0", control::LoopStructure::named("PI-0")},
+                              {"PI", control::LoopStructure::named("PI")}};
   mission.max_disks = 24.0;
   return mission;
 }

@@ -79,7 +79,7 @@ TEST(MatchingStudy, SlewsByNewtonWithoutANonlinearDrive) {
   Mission mission = reference::demo_mission();
   mission.antenna.nonlinear.reset();
   MatchOptions options = small_options();
-  options.structures = {mission.structures.front()};
+  options.structures.loops = {mission.structures.loops.front()};
   const auto study = study_matching(mission, {}, options);
   EXPECT_FALSE(study.slew_by_simulation);
   const double ratio = plant::gear_ratio(mission.antenna);

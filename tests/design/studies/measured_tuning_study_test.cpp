@@ -146,7 +146,7 @@ TEST(StudyMeasuredTuning, ReturnsWhatItHasOnceItIsStopped) {
   const Mission mission = reference::demo_mission();
   const Chirp chirp = chirp_of(mission.antenna);
   const auto study = study_measured_tuning(mission, chirp.campaign, chirp.record, chirp.encoder,
-                                           mission.structures, at_most(1));
+                                           mission.structures.loops, at_most(1));
   EXPECT_TRUE(study.controllers.empty());
   EXPECT_FALSE(study.any_confident());
   EXPECT_TRUE(study.channels.has_value());

@@ -22,7 +22,7 @@ ProposedAntenna proposed(const std::string& name, const std::vector<plant::Anten
   one.mission = reference::uncertain_mission();
   one.mission.uncertainty.random_samples = 2;
   one.mission.antenna = plant::changed(one.mission.antenna, changes);
-  one.structures = {one.mission.structures.front()};
+  one.structures.loops = {one.mission.structures.loops.front()};
   one.cost = cost;
   one.changed = !changes.empty();
   return one;

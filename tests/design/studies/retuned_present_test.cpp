@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "half_of_the_rate_error.hpp"
 #include <boresight/design/studies/retuned_present.hpp>
 
 namespace boresight::design {
@@ -39,6 +40,14 @@ TEST(RetunedPresent, IsTheStructureOfFewestGainsWithoutAPresentOne) {
       study_of({tuned_row("FULL", TunedFor::robust), tuned_row("PI", TunedFor::present),
                 tuned_row("PI", TunedFor::nominal), tuned_row("PI", TunedFor::robust)});
   EXPECT_EQ(retuned_present(study, "", 10.0), &study.controllers[3]);
+}
+
+// Which no antenna has today, and which has no gains at all.
+TEST(RetunedPresent, IsNoStateSpace) {
+  TuningStudy study = study_of({tuned_row("PI", TunedFor::robust)});
+  study.controllers.push_back(tuned_row("FULL", TunedFor::robust));
+  study.controllers[1].design.tuning.controller.structure = reference::half_of_the_rate_error();
+  EXPECT_EQ(retuned_present(study, "", 10.0), &study.controllers[0]);
 }
 
 TEST(RetunedPresent, IsNoUnstableDesign) {

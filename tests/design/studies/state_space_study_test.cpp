@@ -4,6 +4,7 @@
 
 #include "design/studies/demo_mission.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
+#include <boresight/design/studies/controller_at_sky.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
@@ -55,6 +56,52 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   ASSERT_NE(tracking.rate, 0.0);
   EXPECT_EQ(shows_no_limit_cycle(mission, problem, study->controller, {.threads = 2}),
             at_rest.starts_with_limit_cycle + tracking.starts_with_limit_cycle == 0);
+}
+
+// Loops as a state space are assessed as the loops are, but for what has no place in it: the rate
+// loop and the position loop.
+TEST(StateSpaceCandidate, IsAssessedAsTheLoopsAre) {
+  const Mission mission = reference::demo_mission();
+  const TrackingProblem problem = tracking_problem(mission);
+  const control::Controller loops{control::LoopStructure::named("LL+L"),
+                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  PlantEnsemble ensemble{EnsembleSource::ranges, {{"nominal", problem.plant}}};
+  ensemble.members.push_back({"stiff", problem.plant});
+  ensemble.members.back().plant.drive.oil_stiffness *= 1.2;
+  TuningStudy study;
+  study.goals = constraints(mission);
+  TunedController expected;
+  expected.tuned_for = TunedFor::robust;
+  expected.wind_speed = 10.0;
+  expected.design = assess(problem, loops, study.goals);
+  evaluate_at_sky(mission, ensemble, study, expected);
+
+  const auto found =
+      state_space_candidate(mission, ensemble, study, limit_of(problem, loops), 10.0);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->is_state_space());
+  EXPECT_EQ(found->structure, "SS");
+  EXPECT_EQ(found->tuned_for, TunedFor::robust);
+  EXPECT_TRUE(found->stable());
+  EXPECT_NEAR(found->boresight_rms / expected.boresight_rms, 1.0, 1e-3);
+  ASSERT_TRUE(found->ensemble && expected.ensemble);
+  for (std::size_t i = 0; i < ensemble.members.size(); ++i) {
+    const MemberResult &one = found->ensemble->members[i], &other = expected.ensemble->members[i];
+    EXPECT_TRUE(one.stable);
+    EXPECT_NEAR(one.boresight_rms / other.boresight_rms, 1.0, 1e-3);
+    EXPECT_NEAR(one.sensitivity_peaks[1] / other.sensitivity_peaks[1], 1.0, 2e-2);
+  }
+  EXPECT_GE(found->design.tuning.worst_constraint,
+            found->ensemble->members[found->ensemble->worst].worst_constraint);
+  EXPECT_EQ(found->constraints_met,
+            found->design.verification.passed && found->ensemble->within_constraints == 2);
+  EXPECT_FALSE(found->trade);
+  EXPECT_EQ(assessment_of(study, *found).parts, 2U);
+
+  EXPECT_FALSE(state_space_candidate(mission, ensemble, study, {}, 10.0));
+  const auto nominal = state_space_candidate(mission, {}, study, limit_of(problem, loops), 10.0);
+  ASSERT_TRUE(nominal);
+  EXPECT_EQ(nominal->tuned_for, TunedFor::nominal);
 }
 
 TEST(StateSpaceStudy, VerdictIsTheFirstThatApplies) {

@@ -49,6 +49,35 @@ TEST(MissionOf, AnotherGearRatioTakesTheNoiseWithIt) {
       0.25, 1e-12);
 }
 
+// SS is no loop structure: it comes beside those that are named, or beside the usual ones.
+TEST(AskedStructures, KnowAStateSpaceBesideLoops) {
+  const Case stated = reference();
+  const auto usual = asked_structures(stated);
+  EXPECT_FALSE(usual.state_space);
+  EXPECT_EQ(usual.loops.size(), 6U);
+  const auto beside = asked_structures(stated, {"PI", "SS"});
+  EXPECT_TRUE(beside.state_space);
+  ASSERT_EQ(beside.loops.size(), 1U);
+  EXPECT_EQ(beside.loops[0].name, "PI");
+  const auto alone = asked_structures(stated, {"SS"});
+  EXPECT_TRUE(alone.state_space);
+  EXPECT_EQ(alone.loops.size(), usual.loops.size());
+  EXPECT_FALSE(alone.empty());
+  EXPECT_THROW(asked_structures(stated, {"SS", "PI", "SS"}), InvalidInput);
+
+  const auto tuned = [](const std::string& names) {
+    return parse_case(EditedCase().text() + "\n[tuning]\nstructures = [" + names + "]\n",
+                      "case.toml");
+  };
+  const auto of_case = mission_of(tuned("'DPF', 'SS'")).structures;
+  EXPECT_TRUE(of_case.state_space);
+  ASSERT_EQ(of_case.loops.size(), 1U);
+  EXPECT_EQ(of_case.loops[0].name, "DPF");
+  EXPECT_EQ(mission_of(tuned("'SS'")).structures.loops.size(), usual.loops.size());
+  EXPECT_FALSE(asked_structures(tuned("'DPF', 'SS'"), {"PI"}).state_space);
+  EXPECT_EQ(asked_structures(tuned("'DPF', 'SS'"), {"SS"}).loops.size(), 1U);
+}
+
 TEST(MissionOf, SupplyHoldsTheMeanTorqueOfItsWindSpeed) {
   const Case stated = reference();
   const auto problem = make_problem(stated);

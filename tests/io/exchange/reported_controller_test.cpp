@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "half_of_the_rate_error.hpp"
 #include "io/edited_case.hpp"
+#include "refused_call.hpp"
 #include <boresight/io/case/case_tuning.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -92,6 +95,41 @@ TEST(ControllerOfReport, HasAllGainsOfItsDesign) {
   EXPECT_THAT(alone.controller.gains, ElementsAre(0.25, 0.5, 0.75, 1.0));
   EXPECT_EQ(alone.structure, full);
   EXPECT_EQ(alone.tuned_for, "");
+}
+
+// Of tune and of redesign: its matrices are those of the report's linear models.
+TEST(ControllerOfReport, IsAStateSpaceWhereThatIsRecommended) {
+  const Case antenna = antenna_of_test();
+  const auto structure = reference::half_of_the_rate_error();
+  const std::string models = R"(, "linear_models": {"state_space_controller": )" +
+                             controller_json(*structure.state_space()) + "}}";
+  const std::string tuned =
+      R"({"tuned": {"controllers": [{"structure": "PI-0", "tuned_for": "robust",
+          "constraints_met": true, "boresight_rms_mdeg": 0.3, "design": )" +
+      design_of("PI-0", 0.1) +
+      R"(}, {"structure": "SS", "tuned_for": "robust", "constraints_met": true,
+          "boresight_rms_mdeg": 0.2, "gains_as_written": [],
+          "design": {"structure": "state space, order 0", "gains": {}}}]})" +
+      models;
+  const auto found = controller_of_report(antenna, tuned, "tune.json", "");
+  EXPECT_EQ(found.structure, "SS");
+  EXPECT_EQ(found.tuned_for, "robust");
+  EXPECT_TRUE(found.controller.structure == structure);
+  EXPECT_EQ(controller_of_report(antenna, tuned, "tune.json", "PI-0").structure, "PI-0");
+  const std::string redesigned =
+      R"({"tuning": {"design": {"structure": "state space, order 0", "gains": {}}})" + models;
+  for (const char* asked : {"", "SS"}) {
+    EXPECT_TRUE(controller_of_report(antenna, redesigned, "r.json", asked).controller.structure ==
+                structure);
+  }
+  EXPECT_THROW(controller_of_report(antenna, redesigned, "r.json", "PI-0"), InvalidInput);
+  // Loops are no state space, and a report that promises one must hold it.
+  const std::string loops = R"({"tuning": {"design": )" + design_of("PI-0", 0.1) + "}}";
+  EXPECT_THAT(reference::Call([&] { controller_of_report(antenna, loops, "r.json", "SS"); }),
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("only one of PI-0")));
+  const std::string bare = tuned.substr(0, tuned.find(R"(, "linear_models")")) + "}";
+  EXPECT_THAT(reference::Call([&] { controller_of_report(antenna, bare, "r.json", ""); }),
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("r.json")));
 }
 
 TEST(ControllerOfReport, SaysWhatTheFileLacks) {

@@ -44,8 +44,8 @@ TEST(ComparedAntennas, AreTheAntennaAsItIsAndWhatEachProposalMakesOfIt) {
   EXPECT_EQ(fewer.cost, 25.0);
   EXPECT_TRUE(fewer.changed);
   EXPECT_EQ(fewer.mission.antenna.flywheels.disks, 12.0);
-  ASSERT_EQ(fewer.structures.size(), 1U);
-  EXPECT_EQ(fewer.structures[0].name, "PI");
+  ASSERT_EQ(fewer.structures.loops.size(), 1U);
+  EXPECT_EQ(fewer.structures.loops[0].name, "PI");
 }
 
 TEST(ComparedAntennas, RefuseWhatCannotStandSideBySide) {

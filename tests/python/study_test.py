@@ -63,7 +63,7 @@ def tuning(antenna):
 
 
 def test_tuning_says_what_the_program_says(tuning, program):
-    report = program("tune", "--structure", "PI")
+    report = program("tune", "--structure", "PI", "--no-limit")
     assert tuning.to_dict()["tuned"] == report["tuned"]
     nominal, robust = [law for law in tuning.controllers if law.tuned_for != "present"]
     assert (nominal.tuned_for, robust.tuned_for) == ("nominal", "robust")

@@ -63,7 +63,7 @@ TEST(ControllerStudy, EveryCommandPutsTheSameControllerOnAnAntenna) {
     const ScratchFolder folder;
     const std::string path = folder.write("case.toml", text);
     const bool nonlinear = text.find("[simulation]") != std::string::npos;
-    const Json row = recommended_row(answer({"tune", path}, folder).at("tuned"));
+    const Json row = recommended_row(answer({"tune", path, "--no-limit"}, folder).at("tuned"));
     ASSERT_FALSE(row.is_null());
     const Json& gains = row.at("design").at("gains");
     const std::vector<double> expected = numbers_in(gains);
@@ -107,6 +107,57 @@ TEST(ControllerStudy, EveryCommandPutsTheSameControllerOnAnAntenna) {
     const auto record = simulate_tests(simulate, [] { return false; }).report.position.front();
     EXPECT_EQ(record.controller.gains, expected);
   }
+}
+
+// To the last bit of its matrices, where the structures ask for one and it is best.
+TEST(ControllerStudy, EveryCommandPutsTheSameStateSpaceOnAnAntenna) {
+  const ScratchFolder folder;
+  const std::string path = folder.write(
+      "case.toml", EditedCase().text() +
+                       "\n[ensemble]\ndraws = 1\n\n[tuning]\nstructures = [\"FULL+L+C\", "
+                       "\"SS\"]\nstarts = 2\n");
+  const Json tuned = answer({"tune", path}, folder);
+  const Json row = recommended_row(tuned.at("tuned"));
+  ASSERT_FALSE(row.is_null());
+  ASSERT_EQ(row.at("structure"), "SS");
+  EXPECT_TRUE(row.at("gains_as_written").empty());
+  EXPECT_TRUE(tuned.contains("limit"));
+  EXPECT_FALSE(tuned.contains("state_space"));  // the section that compares it apart
+  const Json& matrices = tuned.at("linear_models").at("state_space_controller");
+  EXPECT_EQ(tuned.at("linear_models").at("sampled_controller"), matrices);
+
+  const Json redesign = answer({"redesign", path}, folder);
+  EXPECT_EQ(redesign.at("linear_models").at("state_space_controller"), matrices);
+  EXPECT_EQ(redesign.at("tuning").at("tuned_for"), "robust");
+  EXPECT_TRUE(redesign.at("tuning").at("seeds").empty());
+  EXPECT_THAT(redesign.at("card").at(0).at("text").get<std::string>(),
+              testing::StartsWith("SS (robust): state space, order "));
+  const std::string report = folder.write("redesign.json", redesign.dump());
+
+  const Json match = answer(
+      {"match", path, "--points", "4", "--starts", "1", "--no-variants", "--time-domain", "none"},
+      folder);
+  EXPECT_EQ(match.at("matched").at("recommended_as_built").at("structure"), "SS");
+  const Json evaluated = answer({"evaluate", path}, folder).at("evaluated");
+  EXPECT_EQ(evaluated.at("candidates").at(0).at("chosen_structure"), "SS");
+  const Json plan = answer({"commission", path}, folder);
+  EXPECT_EQ(plan.at("state_space_controller"), matrices);
+  EXPECT_EQ(plan.at("stages").back().at("kind"), "feedforward");
+
+  // The report's own file puts it on the antenna again, without a search.
+  BenchmarkArguments benchmark;
+  benchmark.case_path = path;
+  benchmark.threads = 2;
+  benchmark.controller.gains = report;
+  const auto score = benchmark_case(benchmark, {});
+  EXPECT_EQ(score.controller.description, "SS, gains of " + report);
+  ASSERT_TRUE(score.score.ensemble);
+  EXPECT_EQ(score.score.ensemble->within_constraints,
+            static_cast<int>(score.score.ensemble->members.size()));
+  const Json held =
+      answer({"montecarlo", path, "--plants", "4", "--gains", report}, folder).at("controller");
+  EXPECT_EQ(held.at("structure"), "SS");
+  EXPECT_TRUE(held.at("gains").empty());
 }
 
 }  // namespace

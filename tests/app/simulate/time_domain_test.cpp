@@ -444,8 +444,7 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   EXPECT_GT(change->lower, 0.02);
   EXPECT_EQ(figure_change(chosen.own(), chosen.candidates[2])->value, 0.0);
   // Nothing is compared with a run that was lost.
-  auto lost = chosen.candidates[1];
-  lost.rms.reset();
+  design::SimulatedCandidate lost{"lost", chosen.candidates[1].result};
   lost.result.wind.boresight_rms = nan;
   EXPECT_TRUE(std::isnan(lost.simulated_rms()));
   EXPECT_FALSE(figure_change(chosen.own(), lost));

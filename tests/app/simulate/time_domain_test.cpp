@@ -437,7 +437,9 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   EXPECT_GT(chosen.candidates[1].simulated_rms(), chosen.candidates[2].simulated_rms());
   // One that is far behind is not run in all records.
   EXPECT_EQ(chosen.rms->records, 10);
-  EXPECT_EQ(chosen.candidates[0].rms->records, 4);
+  EXPECT_EQ(chosen.candidates[1].rms->records, 4);
+  // The one that was chosen before has run in all.
+  EXPECT_EQ(chosen.candidates[0].rms->records, 10);
   // By the same winds: far apart, and a tie with itself.
   const auto change = figure_change(chosen.candidates[2], chosen.candidates[0]);
   ASSERT_TRUE(change);

@@ -333,7 +333,9 @@ TEST(Commissioning, BringsAStateSpaceInByItsOutput) {
       observer.observe({{LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}});
   const auto& last = plan.stages[3].expected;
   EXPECT_NEAR(last.boresight_rms.nominal / loops.boresight_rms, 1.0, 1e-3);
-  EXPECT_NEAR(last.calm_valve.nominal / loops.calm.valve_command, 1.0, 1e-2);
+  // Its hold attenuates the noise at high frequencies.
+  EXPECT_LT(last.calm_valve.nominal, loops.calm.valve_command);
+  EXPECT_GT(last.calm_valve.nominal, 0.85 * loops.calm.valve_command);
   EXPECT_NEAR(last.overshoot.nominal, loops.overshoot, 5e-3);
   // The reserve is that of the whole output.
   const double reserve = plan.stages[3].abort.gain_reserve;

@@ -165,7 +165,7 @@ TEST(RecommendedLoops, AreTheLeastUnfitWithoutTheStateSpace) {
 // and the choice is that of recommend() among all.
 TEST(StudyControllers, ComparesAStateSpaceWhereTheStructuresAskForOne) {
   Mission mission = reference::demo_mission();
-  mission.structures.loops = {{"PI", control::LoopStructure::named("PI")}};
+  mission.structures.loops = {{"LL+L", control::LoopStructure::named("LL+L")}};
   mission.starts = 2;
   const PlantEnsemble ensemble{EnsembleSource::ranges,
                                {{"nominal", linear_plant(mission.antenna)}}};
@@ -175,7 +175,7 @@ TEST(StudyControllers, ComparesAStateSpaceWhereTheStructuresAskForOne) {
   TuneOptions options;
   options.threads = 2;
   const ControllerStudy study = study_controllers(mission, ensemble, options);
-  EXPECT_THAT(study.tuned.structures, testing::ElementsAre("PI", "SS"));
+  EXPECT_THAT(study.tuned.structures, testing::ElementsAre("LL+L", "SS"));
   ASSERT_TRUE(study.limit);
   ASSERT_TRUE(study.limit->refined);
   ASSERT_EQ(study.tuned.controllers.size(), loops.tuned.controllers.size() + 1);

@@ -182,8 +182,8 @@ Subcommand add_tune(CLI::App& program) {
          "lag), DPF (PI with lag and pressure feedback), LL (PI with lead and lag), FULL "
          "(PI with lead, lag and pressure feedback), with suffixes +L (position lag instead "
          "of the integrals), +N (notch) and +C (compliance compensation), or a [[loop]] "
-         "of the case; SS also designs a state-space controller from the best of them, alone "
-         "from that of the case's structures; see docs/control-structures.md")
+         "of the case; also SS (a state space, designed from the best of the others, alone from "
+         "the best of the structures of the case); see docs/control-structures.md")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
                   "KEY=VALUE of [goals] instead of the case's, one or several")

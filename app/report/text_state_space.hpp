@@ -9,8 +9,7 @@
 
 namespace boresight::app {
 
-/// A state-space controller in the place of gains: its order, what it reads, where its matrices
-/// are.
+/// A state-space controller instead of gains: its order, what it reads, where its matrices are.
 std::string state_space_text(const control::LoopStructure& structure);
 
 /// The verdict, and the state-space controller beside the recommended loops in the same runs.

@@ -212,7 +212,7 @@ bool all_stable(const CommissioningStage& stage) {
 std::optional<Controller> start_from(Plants& plants, const Controller& found,
                                      const Controller& target, double limit,
                                      CommissioningPlan& plan) {
-  const auto start = controller_within(found, target);
+  auto start = controller_within(found, target);
   if (!start) {
     plan.remarks.emplace_back(
         "The controller found has parts that the controller chosen has not: no path of gains "
@@ -223,7 +223,7 @@ std::optional<Controller> start_from(Plants& plants, const Controller& found,
         fmt::format("The rate loop as found has an Ms above {:g} on an ensemble member. "
                     "The plan starts afresh, from gains of the controller chosen.",
                     limit));
-    return std::nullopt;
+    start.reset();
   }
   return start;
 }

@@ -29,7 +29,7 @@ inline constexpr std::string_view state_space_name = "SS";
 /// The controllers among which a study chooses.
 struct CandidateStructures {
   std::vector<NamedStructure> loops;
-  /// Also a state-space controller (design_state_space), which starts from the best of the loops.
+  /// Also a state-space controller (study_controllers), which starts from the best of the loops.
   bool state_space = false;
 
   bool empty() const { return loops.empty() && !state_space; }

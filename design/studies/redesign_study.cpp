@@ -39,12 +39,6 @@ const TunedController& recommended_or_first(const ControllerStudy& study) {
   });
 }
 
-// What the antenna's variants are tuned with: the recommended structure or, instead of a state
-// space, the best loops at its wind speed, of which there are some: it started from them.
-const TunedController& loops_of(const ControllerStudy& study, const TunedController& best) {
-  return best.is_state_space() ? *recommended_loops(study.tuned, best.wind_speed) : best;
-}
-
 // The search of the recommended controller, from other seeds and without its warm starts; none of a
 // state space, which no random starts made.
 std::vector<DesignTask> seed_tasks(const Mission& mission, const PlantEnsemble& ensemble,
@@ -274,7 +268,10 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   how.progress = task.progress;
   ControllerStudy study = study_controllers(mission, ensemble, how, ChoiceDetail::verified);
   const TunedController& best = recommended_or_first(study);
-  const TunedController& loops = loops_of(study, best);
+  // What the antenna's variants are tuned with: instead of a state space the best loops at its wind
+  // speed, of which there are some, as it started from them.
+  const TunedController& loops =
+      best.is_state_space() ? *recommended_loops(study.tuned, best.wind_speed) : best;
   const auto seeds = seed_tasks(mission, ensemble, best, task.seed);
   std::vector<DesignTask> alternatives;
   for (const auto& [name, antenna] : task.alternatives) {

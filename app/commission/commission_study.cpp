@@ -94,9 +94,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
     };
   }
   report.move = design::commissioning_move(designed.mission);
-  if (!options.structure.empty() && options.structure != design::state_space_name) {
-    io::loop_structure(antenna, options.structure);
-  }
+  if (!options.structure.empty()) io::check_structure(antenna, options.structure);
   if (!options.before.empty()) {
     for (auto& compared :
          io::compare_records_of(antenna, options.before, options.after, options.threads)) {

@@ -311,6 +311,10 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
                   did_you_mean(name, known)));
 }
 
+void check_structure(const Case& antenna, const std::string& name) {
+  if (name != design::state_space_name) loop_structure(antenna, name);
+}
+
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna) {
   std::vector<control::LoopStructure> usual;
   for (const auto& name : control::usual_structures()) {
@@ -342,9 +346,8 @@ void read_loops(TableReader& file, Case& antenna) {
     antenna.tuning->starts = tuning->optional_integer("starts", 1, 100000).value_or(0);
     tuning->finish();
     for (const auto& name : antenna.tuning->structures) {
-      if (name == design::state_space_name) continue;
       try {
-        loop_structure(antenna, name);
+        check_structure(antenna, name);
       } catch (const InvalidInput& error) {
         tuning->refuse("structures", error.what());
       }

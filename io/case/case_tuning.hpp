@@ -61,6 +61,9 @@ struct TuningEntry {
 /// those in the case's [[tuning.bound]].
 /// @throws InvalidInput listing them
 control::LoopStructure loop_structure(const Case& antenna, const std::string& name);
+/// Accepts a name that a study may be asked for: a loop structure's or design::state_space_name.
+/// @throws InvalidInput for others, as loop_structure.
+void check_structure(const Case& antenna, const std::string& name);
 /// The usual structures with lag, with the same bounds.
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna);
 

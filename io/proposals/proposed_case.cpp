@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
-#include <boresight/design/problem/mission.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -69,9 +68,8 @@ class Application {
  private:
   void check_structures() const {
     for (const auto& name : proposal_.structures) {
-      if (name == design::state_space_name) continue;
       try {
-        loop_structure(before_, name);
+        check_structure(before_, name);
       } catch (const InvalidInput& error) {
         refuse_at(
             proposal_.structures_location, "structures",

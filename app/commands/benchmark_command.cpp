@@ -54,7 +54,10 @@ std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Ca
   const auto file =
       io::read_gains_file(arguments.controller.gains, antenna, arguments.controller.structure,
                           design::Fitness::misses_member);
-  const std::string origin = file.tuned_for.empty() ? "gains" : file.tuned_for + ",";
+  const bool state_space = file.controller.structure.state_space() != nullptr;
+  const std::string origin = !file.tuned_for.empty() ? file.tuned_for + ","
+                             : state_space           ? "matrices"
+                                                     : "gains";
   return Named{design::controller_of(
       file.controller,
       fmt::format("{}, {} of {}", file.structure, origin, arguments.controller.gains),

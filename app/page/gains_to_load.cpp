@@ -14,25 +14,26 @@
 namespace boresight::app {
 namespace {
 
-// `values` with their units, in the structure's order.
+// `values` with their units, in the structure's order. `title` follows "Gains " or, of a state
+// space, "Controller ".
 Document gains_table(const std::string& title, const control::LoopStructure& structure,
                      const std::vector<std::string>& values) {
   if (structure.state_space() != nullptr) {
-    return subheading(title) + wrapped(state_space_text(structure) + ".", "  ");
+    return subheading("Controller " + title) + wrapped(state_space_text(structure) + ".", "  ");
   }
   const auto& descriptions = structure.gains();
   std::vector<std::vector<std::string>> rows{{"gain", "value"}};
   for (std::size_t i = 0; i < values.size(); ++i) {
     rows.push_back({fmt::format("{} {}", descriptions[i].symbol, descriptions[i].name), values[i]});
   }
-  return subheading(title) + table(std::move(rows), "ll");
+  return subheading("Gains " + title) + table(std::move(rows), "ll");
 }
 
 Document of_study(const design::TuningStudy& study, const io::GainUnits& units) {
   const TunedController* recommended = design::recommended_tuned_controller(study);
   if (recommended == nullptr) return {};
   const auto& controller = recommended->design.tuning.controller;
-  return gains_table("Gains to load: " + name_and_purpose(*recommended), controller.structure,
+  return gains_table("to load: " + name_and_purpose(*recommended), controller.structure,
                      units.texts(controller));
 }
 
@@ -40,8 +41,8 @@ Document of_redesign(const TuningSection& section) {
   if (!section.design.usable()) return {};
   const auto& controller = section.design.tuning.controller;
   const bool fit = section.fitness == design::Fitness::fit;
-  return gains_table(fmt::format("{}: {}, {}", fit ? "Gains to load" : "Gains, not to be loaded",
-                                 section.name, to_string(section.tuned_for)),
+  return gains_table(fmt::format("{}: {}, {}", fit ? "to load" : "not to be loaded", section.name,
+                                 to_string(section.tuned_for)),
                      controller.structure, section.gain_units.texts(controller));
 }
 
@@ -53,7 +54,7 @@ Document of_evaluation(const EvaluateSection& section) {
   const Candidate& candidate = section.candidates[place];
   if (!candidate.feasible()) return {};
   return gains_table(
-      fmt::format("Gains to load: {}, {}", candidate.controllers[*candidate.chosen].structure,
+      fmt::format("to load: {}, {}", candidate.controllers[*candidate.chosen].structure,
                   candidate.path.empty() ? "the antenna as it is" : candidate.name),
       candidate.chosen_controller()->design.tuning.controller.structure,
       candidate.gains.at(*candidate.chosen));

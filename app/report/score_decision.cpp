@@ -22,11 +22,13 @@ double mdeg(double angle) {
 }  // namespace
 
 std::vector<std::string> decision(const MonteCarloSection& section) {
-  Sentences sentences{
-      fmt::format("{} with fixed gains on {} plants is unstable on a fraction of {:.4g} (95 %: at "
-                  "most {:.2g}) and meets all constraints on {:.1f} %.",
-                  section.structure, section.plants, section.instability.value,
-                  section.instability.upper, 100.0 * section.all_constraints_met.value)};
+  Sentences sentences{fmt::format(
+      "{}{} on {} plants is unstable on a fraction of {:.4g} (95 %: at most {:.2g}) and "
+      "meets all constraints on {:.1f} %.",
+      section.structure,
+      section.controller.structure.state_space() == nullptr ? " with fixed gains" : "",
+      section.plants, section.instability.value, section.instability.upper,
+      100.0 * section.all_constraints_met.value)};
   if (!section.budgets.empty()) {
     const auto& one = section.budgets.front();
     sentences.push_back(

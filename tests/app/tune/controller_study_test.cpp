@@ -150,7 +150,7 @@ TEST(ControllerStudy, EveryCommandPutsTheSameStateSpaceOnAnAntenna) {
   benchmark.threads = 2;
   benchmark.controller.gains = report;
   const auto score = benchmark_case(benchmark, {});
-  EXPECT_EQ(score.controller.description, "SS, gains of " + report);
+  EXPECT_EQ(score.controller.description, "SS, matrices of " + report);
   ASSERT_TRUE(score.score.ensemble);
   EXPECT_EQ(score.score.ensemble->within_constraints,
             static_cast<int>(score.score.ensemble->members.size()));

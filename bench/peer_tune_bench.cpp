@@ -77,7 +77,7 @@ void peer_tune_by_frequency_response(benchmark::State& state) {
   }
   state.counters["note_evaluations"] = static_cast<double>(tuning->evaluations);
   const std::clock_t begin = std::clock();
-  // Where dense judges take minutes: adaptive quadrature and a bracketed peak, mode by mode.
+  // Where a dense evaluation takes minutes: adaptive quadrature and a bracketed peak, mode by mode.
   const bool dense = modes <= 50;
   const auto evaluated = dense ? reference::evaluate_peer(modes, tuning->gains)
                                : reference::evaluate_peer_by_modes(modes, tuning->gains);

@@ -88,7 +88,7 @@ inline std::optional<PeerTuning> tune_peer(Eigen::Index modes,
                     peer_peak_limit * std::exp(best->violation), search.evaluations()};
 }
 
-/// The same controller judged on the dense state space: eigenvalues, Lyapunov's equation,
+/// The same controller evaluated on the dense state space: eigenvalues, Lyapunov's equation,
 /// Hamiltonian.
 struct PeerEvaluation {
   double abscissa = 0.0;  // 1/s

@@ -160,7 +160,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
   for (const auto& variants : section.variants) {
     std::string moved;
     const auto& own = variants.variants.front();
-    if (!own.best || !weighed(section, variants.structure)) continue;
+    if (!own.best || !is_eligible(section, variants.structure)) continue;
     for (const auto& variant : variants.variants) {
       if (!variant.best) {
         moved += fmt::format("; with {} no controller meets the constraints", name_of(variant));
@@ -181,7 +181,7 @@ void conclude_variants(const MatchSection& section, std::vector<std::string>& se
                       : ""));
   }
   for (const auto& one : section.thresholds) {
-    if (!weighed(section, one.structure)) continue;
+    if (!is_eligible(section, one.structure)) continue;
     const std::string at_tracking =
         one_friction(section)
             ? ""

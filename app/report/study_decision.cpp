@@ -139,7 +139,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_limit_cycle, b
   const double minimum = best->values[best_point].boresight_rms;
   const MatchValue& present = best->values[built];
   const MatchSeries* moved = most_moved(section);
-  if (!compared && moved != nullptr && weighed(section, *best) && hardly_matters(section)) {
+  if (!compared && moved != nullptr && is_eligible(section, *best) && hardly_matters(section)) {
     return {fmt::format(
         "Leave the flywheels as they are: with {} loops the rms as built is {:.3f} mdeg in {:g} "
         "m/s, and from {:g} to {:g} disks on each motor no structure's rms changes by more than "

@@ -96,9 +96,9 @@ DecayingResponse::Node DecayingResponse::node(double time, Eigen::VectorXd state
         "the response; leave out what is too fast or too slow to matter");
   }
   const Eigen::Vector3d f = derivatives_ * state;
-  const Eigen::VectorXd weighed = weights_ * state;
-  Eigen::Vector3d bounds(weighed.head(n).norm(), weighed.segment(n, n).norm(),
-                         weighed.tail(n).norm());
+  const Eigen::VectorXd weighted = weights_ * state;
+  Eigen::Vector3d bounds(weighted.head(n).norm(), weighted.segment(n, n).norm(),
+                         weighted.tail(n).norm());
   if (poles_.size() > 0) {
     Eigen::Vector3d by_modes = Eigen::Vector3d::Zero();
     for (Eigen::Index i = 0, at = 0; i < poles_.size(); ++i) {

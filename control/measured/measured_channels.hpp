@@ -37,7 +37,7 @@ struct OilSpring {
 /// Flexure beyond the encoder (non-collocated), from a model of the structure.
 struct BendingPoint {
   std::complex<double> boresight_per_encoder{1.0, 0.0};  // rad/rad
-  std::complex<double> boresight_per_wind{0.0, 0.0};     // rad/(N m), encoder held
+  std::complex<double> boresight_per_wind{0.0, 0.0};     // rad/(N m), encoder fixed
 };
 
 struct MeasuredChannelOptions {

@@ -126,7 +126,9 @@ std::vector<const MatchSeries*> worth_varying(const MatchingStudy& study) {
            !structure.has(control::LoopPath::compliance) && !leads(structure);
   };
   const bool some = most_moved(study) != nullptr;
-  const auto counts = [&](const MatchSeries& series) { return !some || weighed(study, series); };
+  const auto counts = [&](const MatchSeries& series) {
+    return !some || is_eligible(study, series);
+  };
   const MatchSeries* best = recommended_structure(study, counts);
   const MatchSeries* best_pi = recommended_structure(
       study, [&](const MatchSeries& series) { return counts(series) && plain(series); });

@@ -23,7 +23,7 @@ double span_of(const MatchSeries& series) {
 bool hardly_matters(const MatchingStudy& study) {
   bool any = false;
   for (const auto& series : study.series) {
-    if (!weighed(study, series)) continue;
+    if (!is_eligible(study, series)) continue;
     any = true;
     const bool everywhere = std::ranges::all_of(series.values, &MatchValue::found);
     if (!everywhere || span_of(series) >= negligible_change) return false;
@@ -35,7 +35,7 @@ std::vector<VariantChange> variant_changes(const MatchingStudy& study) {
   std::vector<VariantChange> changes;
   for (const auto& variants : study.variants) {
     const MatchVariant& own = variants.variants.front();
-    if (!own.best || !weighed(study, variants.structure)) continue;
+    if (!own.best || !is_eligible(study, variants.structure)) continue;
     const double minimum = own.rms[*own.best];
     for (const auto& variant : variants.variants) {
       if (!variant.best) continue;
@@ -74,14 +74,14 @@ bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series) {
 
 // The span of a structure has its best motors at one end, the comparison of structures those as
 // built: a controller with a limit cycle at either has no such rms there.
-bool weighed(const MatchingStudy& study, const MatchSeries& series) {
+bool is_eligible(const MatchingStudy& study, const MatchSeries& series) {
   return series.best && !has_limit_cycle(study, series) &&
          !has_limit_cycle_at(study, series, as_built(study));
 }
 
-bool weighed(const MatchingStudy& study, std::string_view structure) {
+bool is_eligible(const MatchingStudy& study, std::string_view structure) {
   return std::ranges::any_of(study.series, [&](const MatchSeries& series) {
-    return series.name == structure && weighed(study, series);
+    return series.name == structure && is_eligible(study, series);
   });
 }
 
@@ -165,7 +165,7 @@ const MatchSeries* recommended_structure(const MatchingStudy& study,
 const MatchSeries* most_moved(const MatchingStudy& study) {
   const MatchSeries* maximum = nullptr;
   for (const auto& series : study.series) {
-    if (!weighed(study, series)) continue;
+    if (!is_eligible(study, series)) continue;
     if (maximum == nullptr || span_of(series) > span_of(*maximum)) maximum = &series;
   }
   return maximum;
@@ -176,7 +176,7 @@ StructuresAsBuilt structures_as_built(const MatchingStudy& study) {
   const auto rms = [&](const MatchSeries& series) { return series.values[built].boresight_rms; };
   StructuresAsBuilt result;
   for (const auto& series : study.series) {
-    if (!series.values[built].found || !weighed(study, series)) continue;
+    if (!series.values[built].found || !is_eligible(study, series)) continue;
     ++result.count;
     if (result.minimum == nullptr || rms(series) < rms(*result.minimum)) result.minimum = &series;
     if (result.largest == nullptr || rms(series) > rms(*result.largest)) result.largest = &series;
@@ -202,7 +202,7 @@ std::vector<double> as_good_elsewhere(const MatchingStudy& study, const MatchSer
 
 bool has_optimum(const MatchingStudy& study) {
   return std::ranges::any_of(study.series, [&](const MatchSeries& series) {
-    return series.best && weighed(study, series) && *series.best + 1 < study.points.size() &&
+    return series.best && is_eligible(study, series) && *series.best + 1 < study.points.size() &&
            span_of(series) >= negligible_change;
   });
 }
@@ -211,7 +211,7 @@ RuleCosts costs_of(const MatchingStudy& study, const RuleVerdict& rule) {
   RuleCosts costs{nullptr, nullptr, HUGE_VAL, -HUGE_VAL};
   for (std::size_t s = 0; s < rule.cost.size(); ++s) {
     const MatchSeries& series = study.series[s];
-    if (!std::isfinite(rule.cost[s]) || !weighed(study, series)) continue;
+    if (!std::isfinite(rule.cost[s]) || !is_eligible(study, series)) continue;
     if (rule.cost[s] < costs.minimum) {
       costs.minimum = rule.cost[s];
       costs.cheapest = &series;
@@ -229,7 +229,7 @@ const FrictionThreshold* deciding_friction(const MatchingStudy& study) {
   const double maximum = 1.5 * std::max(study.friction, study.tracking_friction);
   for (const auto& one : study.thresholds) {
     if (!one.slope || *one.slope > maximum || one.spread_at_nominal < one.spread) continue;
-    if (!weighed(study, one.structure)) continue;
+    if (!is_eligible(study, one.structure)) continue;
     if (threshold != nullptr && *one.slope >= threshold->slope) continue;
     threshold = &one;
   }

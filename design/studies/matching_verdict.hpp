@@ -36,10 +36,10 @@ bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series);
 /// True if a structure is eligible when inertias, structures and rules are compared. It has a
 /// controller that meets its constraints, with no limit cycle beyond the tightest budget at its
 /// limit_cycle_point or as built.
-bool weighed(const MatchingStudy& study, const MatchSeries& series);
+bool is_eligible(const MatchingStudy& study, const MatchSeries& series);
 
 /// The same for a structure given by name; false for one that was not studied.
-bool weighed(const MatchingStudy& study, std::string_view structure);
+bool is_eligible(const MatchingStudy& study, std::string_view structure);
 
 /// The structure that recommend chooses among those for which `counts` is true, each with its best
 /// motors. A structure with limit cycles is chosen only where all have them. Null where none has a

@@ -5,7 +5,7 @@
 
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/design/decisions/negligible_change.hpp>
-#include <boresight/design/studies/controller_at_sky.hpp>
+#include <boresight/design/studies/pointing_evaluation.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -57,7 +57,7 @@ std::optional<TunedController> state_space_candidate(const Mission& mission,
   row.wind_speed = wind_speed;
   row.design = assess(problem_at(mission, study, wind_speed), *controller, study.goals);
   row.design.name = row.structure;
-  evaluate_at_sky(mission, ensemble, study, row);
+  evaluate_pointing(mission, ensemble, study, row);
   if (row.ensemble) {
     auto& worst = row.design.tuning.worst_constraint;
     worst = std::max(worst, row.ensemble->members[row.ensemble->worst].worst_constraint);

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include <boresight/design/studies/controller_at_sky.hpp>
+#include <boresight/design/studies/pointing_evaluation.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/design/studies/tuning_study.hpp>
 #include <boresight/design/tuning/structure_parts.hpp>
@@ -74,7 +74,7 @@ class Study {
   }
 
   void finish(TuningUnit& unit) const {
-    for (auto& row : unit.controllers) evaluate_at_sky(mission_, ensemble_, section_, row);
+    for (auto& row : unit.controllers) evaluate_pointing(mission_, ensemble_, section_, row);
   }
 
  private:

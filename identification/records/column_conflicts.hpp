@@ -30,7 +30,7 @@ struct ColumnConflicts {
   std::vector<RecordConflict> records;  // one a record
 };
 
-/// Judges the suspicions of all records together. A column is what it is in the whole campaign:
+/// Combines the suspicions of all records. A column is what it is in the whole campaign:
 /// what half or more of the records in motion (slosh tests aside) show holds for all of them, what
 /// fewer show for those alone.
 ///

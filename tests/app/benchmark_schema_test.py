@@ -1,4 +1,4 @@
-"""Holds score sheets of `boresight benchmark` against docs/benchmark.schema.json, of a law, a given
+"""Holds score sheets of `boresight benchmark` against docs/benchmark.schema.json, of a tuned controller, a given
 controller beside it, and an unstable loop.
 
 usage: benchmark_schema_test.py PROGRAM SOURCE_FOLDER
@@ -51,10 +51,10 @@ class Benchmark(unittest.TestCase):
     def test_sheets_are_as_the_schema_says(self):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
-            code, law = run(folder, "--export-controller", "k.mat")
+            code, tuned = run(folder, "--export-controller", "k.mat")
             self.assertEqual(code, 0)
-            VALIDATOR.validate(law)
-            (folder / "controller.json").write_text(json.dumps(law), encoding="utf-8")
+            VALIDATOR.validate(tuned)
+            (folder / "controller.json").write_text(json.dumps(tuned), encoding="utf-8")
             code, given = run(folder, "--controller", "k.mat", "--compare", "controller.json")
             self.assertEqual(code, 0)
             VALIDATOR.validate(given)

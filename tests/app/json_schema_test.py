@@ -295,59 +295,60 @@ class Campaign(unittest.TestCase):
 class Tune(unittest.TestCase):
     def setUp(self):
         self.found = report("tune", TUNED)["tuned"]
-        self.laws = {(law["structure"], law["tuned_for"]): law for law in self.found["controllers"]}
+        self.controllers = {(one["structure"], one["tuned_for"]): one
+                            for one in self.found["controllers"]}
 
     def test_has_every_law(self):
         self.assertEqual(self.found["structures"], ["PI", "PI-0"])
-        self.assertEqual(list(self.laws), [
+        self.assertEqual(list(self.controllers), [
             ("FULL+N+C", "present"), ("PI with a second lag", "present"), ("PI", "nominal"),
             ("PI", "robust"), ("PI-0", "nominal"), ("PI-0", "robust")])
         self.assertEqual((self.found["not_run"], self.found["shortfalls"]), ([], []))
 
     def test_claims_only_laws_that_keep_their_goals(self):
-        for (_, purpose), law in self.laws.items():
-            if purpose == "present" or not law["constraints_met"]:
+        for (_, purpose), controller in self.controllers.items():
+            if purpose == "present" or not controller["constraints_met"]:
                 continue
-            self.assertTrue(law["design"]["verified"])
-            for cut, goal in zip(law["design"]["loop_breaks"], self.found["constraints"]["loop_breaks"]):
+            self.assertTrue(controller["design"]["verified"])
+            for cut, goal in zip(controller["design"]["loop_breaks"], self.found["constraints"]["loop_breaks"]):
                 self.assertLessEqual(cut["sensitivity_peak_1"],
                                      goal["sensitivity_peak_1"] * (1 + 1e-6))
-            for member in law["ensemble"]["members"] if purpose == "robust" else ():
+            for member in controller["ensemble"]["members"] if purpose == "robust" else ():
                 self.assertTrue(member["stable"])
                 self.assertLessEqual(member["worst_constraint_1"], 1 + 1e-5)
-        self.assertTrue(self.laws["PI", "nominal"]["constraints_met"])
+        self.assertTrue(self.controllers["PI", "nominal"]["constraints_met"])
         # More gains and fewer plants can only help.
-        rms = {key: law["boresight_rms_mdeg"] for key, law in self.laws.items()}
+        rms = {key: controller["boresight_rms_mdeg"] for key, controller in self.controllers.items()}
         self.assertLessEqual(rms["PI", "nominal"], rms["PI-0", "nominal"] * 1.001)
         self.assertLessEqual(rms["PI", "nominal"], rms["PI", "robust"] * 1.001)
 
     def test_reckons_losses_and_limits_from_the_rms(self):
-        for law in self.laws.values():
-            if law["boresight_rms_mdeg"] is None:
+        for controller in self.controllers.values():
+            if controller["boresight_rms_mdeg"] is None:
                 continue
-            for band, result in zip(self.found["bands"], law["bands"]):
+            for band, result in zip(self.found["bands"], controller["bands"]):
                 for rms, loss in (("boresight_rms_mdeg", "mean_loss_two_axes_dB"),
                                   ("climate_boresight_rms_mdeg", "climate_mean_loss_two_axes_dB")):
                     self.assertAlmostEqual(result[loss],
-                                           24 * (law[rms] / band["beamwidth_mdeg"]) ** 2)
-            for budget, result in zip(self.found["budgets"], law["budgets"]):
+                                           24 * (controller[rms] / band["beamwidth_mdeg"]) ** 2)
+            for budget, result in zip(self.found["budgets"], controller["budgets"]):
                 limit = result["wind_speed_limit_m_per_s"] or math.inf
-                self.assertEqual(limit >= law["design_wind_speed_m_per_s"],
-                                 law["boresight_rms_mdeg"] <= budget["rms_mdeg"])
+                self.assertEqual(limit >= controller["design_wind_speed_m_per_s"],
+                                 controller["boresight_rms_mdeg"] <= budget["rms_mdeg"])
 
     def test_gives_gains_as_the_case_writes_them(self):
-        law = self.laws["PI with a second lag", "present"]
-        self.assertEqual([(gain["symbol"], gain["value"]) for gain in law["gains_as_written"]],
+        controller = self.controllers["PI with a second lag", "present"]
+        self.assertEqual([(gain["symbol"], gain["value"]) for gain in controller["gains_as_written"]],
                          [("kr", "0.2"), ("wi", "0.127 Hz"), ("wp", "0.95 Hz"), ("wp2", "40 Hz"),
                           ("kp", "0.2 1/s"), ("wip", "0.02 rad/s")])
 
     def test_agrees_with_the_text(self):
         text = run("tune", TUNED)[1]
-        for (structure, purpose), law in self.laws.items():
-            rms = law["boresight_rms_mdeg"]
+        for (structure, purpose), controller in self.controllers.items():
+            rms = controller["boresight_rms_mdeg"]
             shown = "-" if rms is None else f"{rms:.4f}"
             self.assertRegex(text, rf"{re.escape(structure)} +{purpose} +10 +{re.escape(shown)} ")
-            for gain in law["gains_as_written"]:
+            for gain in controller["gains_as_written"]:
                 self.assertIn(gain["value"], text)
 
 

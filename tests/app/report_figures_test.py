@@ -79,7 +79,7 @@ class Law(Near):
         self.figures = figures_of(self.found)
         self.design = self.found["tuning"]["design"]
 
-    def judged(self, linear):
+    def evaluated(self, linear):
         """What the simulation makes of a linear rms, the limit cycle's in quadrature."""
         effect = self.found["tuning"]["effect"]
         return math.hypot(max(1, effect["factor_1"]) * linear,
@@ -89,7 +89,7 @@ class Law(Near):
         figure = self.figures["tuned-rms-against-wind"]
         curve = series_of(figure, 0)
         self.assertNear(at(curve, self.found["tuning"]["design_wind_speed_m_per_s"]),
-                        self.judged(self.design["boresight_rms_mdeg"]), 3e-3)
+                        self.evaluated(self.design["boresight_rms_mdeg"]), 3e-3)
         marks = {round(mark["y"], 4): mark["x"] for mark in figure["panels"][0]["marks"]}
         for budget in self.found["tuning"]["budgets"]:
             self.assertNear(marks[round(budget["rms_mdeg"], 4)], budget["wind_speed_limit_m_per_s"],
@@ -164,7 +164,7 @@ class Law(Near):
         speed = self.found["tuning"]["design_wind_speed_m_per_s"]
         for bound, key in (("y_lower", "min"), ("y_upper", "largest")):
             value = at({"x": band["x"], "y": band[bound]}, speed)
-            self.assertNear(value, self.judged(ensemble[f"{key}_boresight_rms_mdeg"]), 5e-3)
+            self.assertNear(value, self.evaluated(ensemble[f"{key}_boresight_rms_mdeg"]), 5e-3)
 
     def test_error_budget_sums_in_quadrature(self):
         parts, total, apart = self.figures["tuned-error-budget"]["panels"][0]["series"]

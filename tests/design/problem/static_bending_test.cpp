@@ -17,7 +17,8 @@ TrackingProblem problem() {
   return problem;
 }
 
-// With the encoder held, the beam follows the wind torque by the springs alone at low frequency.
+// With the encoder fixed, the boresight follows the wind torque by the springs alone at low
+// frequency.
 TEST(StaticBending, IsTheLimitOfTheStructuresResponse) {
   const TrackingProblem own = problem();
   const auto response =

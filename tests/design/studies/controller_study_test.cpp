@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
-#include "half_of_the_rate_error.hpp"
+#include "static_controller.hpp"
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -154,7 +154,7 @@ TEST(RecommendedLoops, AreTheLeastUnfitWithoutTheStateSpace) {
   }
   TunedController& states = study.controllers[2];
   states.structure = "SS";
-  states.design.tuning.controller.structure = reference::half_of_the_rate_error();
+  states.design.tuning.controller.structure = reference::static_controller();
   states.in_time = ControllerInTime{.boresight_rms = 0.2 * millidegree};
   EXPECT_EQ(recommended_tuned_controller(study, 10.0), &states);
   EXPECT_EQ(recommended_loops(study, 10.0), &study.controllers[1]);

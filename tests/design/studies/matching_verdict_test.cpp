@@ -47,9 +47,9 @@ TEST(MatchingVerdict, WeighsNoStructureThatLimitCyclesBeyondTheTightestBudget) {
                                limit_cycles(series_of("DPF", {0.5, 0.6, 0.7}), 0.1)});
   EXPECT_TRUE(has_limit_cycle(study, study.series[0]));
   EXPECT_TRUE(limit_cycle_beyond(study, limit_cycle_of(study, study.series[0])));
-  EXPECT_FALSE(weighed(study, "PI"));
-  EXPECT_TRUE(weighed(study, "DPF"));
-  EXPECT_FALSE(weighed(study, "LL")) << "was not studied";
+  EXPECT_FALSE(is_eligible(study, "PI"));
+  EXPECT_TRUE(is_eligible(study, "DPF"));
+  EXPECT_FALSE(is_eligible(study, "LL")) << "was not studied";
   EXPECT_EQ(most_moved(study), &study.series[1]);
   EXPECT_EQ(recommended_structure(study, [](const MatchSeries&) { return true; }),
             &study.series[1]);

@@ -28,7 +28,7 @@ control::Controller controller_of_test() {
   return reference::fixed_controller("PI", 1.0).design.tuning.controller;
 }
 
-// As each plant alone is judged.
+// As each plant alone is evaluated.
 double unstable_fraction(const Mission& mission, const PlantDistribution& distribution,
                          const control::Controller& controller, const MonteCarloOptions& options) {
   const MonteCarlo study = monte_carlo_of(mission, distribution, controller, options);

@@ -4,7 +4,7 @@
 
 #include "design/studies/demo_mission.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
-#include <boresight/design/studies/controller_at_sky.hpp>
+#include <boresight/design/studies/pointing_evaluation.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
@@ -74,7 +74,7 @@ TEST(StateSpaceCandidate, IsAssessedAsTheLoopsAre) {
   expected.tuned_for = TunedFor::robust;
   expected.wind_speed = 10.0;
   expected.design = assess(problem, loops, study.goals);
-  evaluate_at_sky(mission, ensemble, study, expected);
+  evaluate_pointing(mission, ensemble, study, expected);
 
   const auto found =
       state_space_candidate(mission, ensemble, study, limit_of(problem, loops), 10.0);

@@ -1,4 +1,4 @@
-// The peers' tuning: the same optimum from nearly every start, judged on the state space.
+// The peers' tuning: the same optimum from nearly every start, evaluated on the state space.
 #include "peer_tuning.hpp"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ TEST(PeerTuning, FindsTheOptimumThatOthersFind) {
   EXPECT_LT(evaluated.abscissa, 0.0);
   EXPECT_LT(relative_error(evaluated.rms, reference::peer_tuned_rms), 1e-6);
   EXPECT_LT(evaluated.peak, reference::peer_peak_limit * (1.0 + 1e-6));
-  // What the search saw is what the judges see.
+  // The search and the independent evaluation agree.
   EXPECT_LT(relative_error(tuning->rms, evaluated.rms), 1e-8);
   EXPECT_LT(relative_error(tuning->peak, evaluated.peak), 1e-6);
 }

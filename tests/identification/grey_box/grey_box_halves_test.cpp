@@ -36,7 +36,7 @@ Vector hydraulic() {
 
 const HydraulicUnits units{474.0, 9.5, 60.0};
 
-// Starts, slides, turns round and sticks; pressures and valve of the same kind of size.
+// Starts, slides, reverses and sticks; pressures and valve of the same kind of size.
 GreyBoxRecord moving_record(Eigen::Index samples) {
   reference::RandomNumbers random(5);
   GreyBoxRecord r;

@@ -5,9 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "half_of_the_rate_error.hpp"
 #include "io/edited_case.hpp"
 #include "refused_call.hpp"
+#include "static_controller.hpp"
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
@@ -100,7 +100,7 @@ TEST(ControllerOfReport, HasAllGainsOfItsDesign) {
 // Of tune and of redesign: its matrices are those of the report's linear models.
 TEST(ControllerOfReport, IsAStateSpaceWhereThatIsRecommended) {
   const Case antenna = antenna_of_test();
-  const auto structure = reference::half_of_the_rate_error();
+  const auto structure = reference::static_controller();
   const std::string models = R"(, "linear_models": {"state_space_controller": )" +
                              controller_json(*structure.state_space()) + "}}";
   const std::string tuned =

@@ -2,7 +2,7 @@
 #include <limits>
 
 #include <boresight/design/problem/budget_speeds.hpp>
-#include <boresight/design/studies/controller_at_sky.hpp>
+#include <boresight/design/studies/pointing_evaluation.hpp>
 
 namespace boresight::design {
 namespace {
@@ -40,8 +40,8 @@ TrackingProblem problem_at(const Mission& mission, const TuningStudy& study, dou
   return problem;
 }
 
-void evaluate_at_sky(const Mission& mission, const PlantEnsemble& ensemble,
-                     const TuningStudy& study, TunedController& row) {
+void evaluate_pointing(const Mission& mission, const PlantEnsemble& ensemble,
+                       const TuningStudy& study, TunedController& row) {
   if (row.stable()) {
     evaluate_stable(mission, ensemble, study, row);
   } else {

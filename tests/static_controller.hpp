@@ -4,8 +4,8 @@
 
 namespace boresight::reference {
 
-/// A state space without states: half of the rate error, and a fifth of the angle.
-inline control::LoopStructure half_of_the_rate_error() {
+/// A state space of order 0 on tachometer and encoder.
+inline control::LoopStructure static_controller() {
   plant::StateSpace system;
   system.a.resize(0, 0);
   system.b.resize(0, 2);

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lag_loops.hpp"
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/control/controllers/controller.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
@@ -40,8 +41,7 @@ TEST(MonteCarloConclusions, SpeakOfGainsWhereTheControllerHasSome) {
   MonteCarloSection section = section_of({0.5, 0.7, 0.9});
   section.stable = 2;
   EXPECT_THAT(conclude(section).front(), HasSubstr("With these fixed gains, "));
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   section.controller = control::state_space_controller(
       "of a file", plant::subsystem(control::sampled_controller(loops, 0.02),
                                     {"tachometer", "encoder"}, {"valve_demand"}));

@@ -13,6 +13,7 @@
 
 #include "app/program_run.hpp"
 #include "io/edited_case.hpp"
+#include "lag_loops.hpp"
 #include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/control/controllers/controller.hpp>
 #include <boresight/io/case/case_friction.hpp>
@@ -126,8 +127,7 @@ TEST(SimulateCommand, RefusesWhatItCannotRun) {
 // A controller of other tools, which a file states.
 TEST(SimulateCommand, RunsAStateSpaceOfAFile) {
   const ScratchFolder folder;
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   io::write_controller(folder.file("mine.mat"), control::to_state_space(loops));
   const std::string path = case_path("dss14-70m");
   const auto run = run_program({"simulate", path, "slew", "--controller", folder.file("mine.mat"),

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/controllers/sensor_response.hpp>
@@ -83,10 +84,8 @@ TEST(LoopStructure, OfAStateSpaceHasPartsButNoGains) {
   EXPECT_TRUE(structure == LoopStructure::of_state_space("states", sampled()));
   EXPECT_FALSE(structure == LoopStructure::of_state_space("states", other));
   EXPECT_FALSE(structure == loops().structure);
-  const auto smaller = plant::subsystem(
-      sampled_controller({LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}},
-                         sample_time),
-      {"tachometer", "encoder"}, {"valve_demand"});
+  const auto smaller = plant::subsystem(sampled_controller(reference::lag_loops(), sample_time),
+                                        {"tachometer", "encoder"}, {"valve_demand"});
   EXPECT_FALSE(
       LoopStructure::of_state_space("states", smaller) ==
       LoopStructure::of_state_space(

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "control/reference_loop.hpp"
+#include "lag_loops.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
@@ -18,7 +19,7 @@ namespace {
 constexpr double sample_time = 0.02;
 
 Controller loops() {
-  return {LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  return reference::lag_loops();
 }
 
 Controller states(double factor = 1.0) {

@@ -8,12 +8,11 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include <boresight/control/analysis/step_characteristics.hpp>
-#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_path.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::design {
 namespace {
@@ -270,18 +269,10 @@ std::string message_of(const std::function<void()>& call) {
   return "nothing was thrown";
 }
 
-// Loops without integrals as a state space, which is stable by itself.
-Controller states_of_loops() {
-  const Controller loops{LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
-  return control::state_space_controller(
-      "states", plant::subsystem(control::sampled_controller(loops, 0.02),
-                                 {"tachometer", "encoder"}, {"valve_demand"}));
-}
-
 std::vector<double> output_factors(const std::function<bool(const StageController&)>& allowed,
                                    std::string& why_not) {
   std::vector<double> factors;
-  const auto path = output_path(states_of_loops(), 2.0, allowed, why_not);
+  const auto path = output_path(reference::lag_loops_as_state_space(), 2.0, allowed, why_not);
   if (!path) return factors;
   for (const auto& stage : *path) factors.push_back(stage.controller.output_factor);
   return factors;
@@ -298,21 +289,22 @@ TEST(OutputPath, RisesToTheWholeOutputFromTheLeastFactorAllowed) {
   EXPECT_THAT(output_factors(at_least(0.6), why_not), testing::IsEmpty());
   EXPECT_THAT(why_not, HasSubstr("0.5 of the output is not allowed"));
 
-  const auto path = output_path(states_of_loops(), 2.0, at_least(0.0), why_not);
+  const auto path = output_path(reference::lag_loops_as_state_space(), 2.0, at_least(0.0), why_not);
   ASSERT_TRUE(path);
   EXPECT_EQ(path->front().kind, StageKind::output);
   EXPECT_EQ(path->front().controller.controller.structure.state_space()->d(0, 0),
-            0.25 * states_of_loops().structure.state_space()->d(0, 0));
+            0.25 * reference::lag_loops_as_state_space().structure.state_space()->d(0, 0));
   EXPECT_EQ(path->back().kind, StageKind::feedforward);
   EXPECT_TRUE(path->back().controller.feedforward);
-  EXPECT_TRUE(path->back().controller.controller.structure == states_of_loops().structure);
+  EXPECT_TRUE(path->back().controller.controller.structure ==
+              reference::lag_loops_as_state_space().structure);
 }
 
 TEST(Commissioning, BringsAStateSpaceInByItsOutput) {
   const auto problem = problem_of_test();
   const auto members = few_members(problem);
-  const auto plan =
-      plan_commissioning(problem, members, pressure_controller(), states_of_loops(), move);
+  const auto plan = plan_commissioning(problem, members, pressure_controller(),
+                                       reference::lag_loops_as_state_space(), move);
   ASSERT_EQ(plan.stages.size(), 5U);
   EXPECT_EQ(plan.stages[0].kind, StageKind::as_found);
   for (std::size_t i = 1; i < 4; ++i) {
@@ -328,8 +320,7 @@ TEST(Commissioning, BringsAStateSpaceInByItsOutput) {
   EXPECT_THAT(plan.remarks.back(), HasSubstr("with 0.25 of its output"));
   // At the end it does what the loops do.
   StageObserver observer(problem, problem.plant, WindTable(problem), move);
-  const auto loops =
-      observer.observe({{LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}});
+  const auto loops = observer.observe({reference::lag_loops()});
   const auto& last = plan.stages[3].expected;
   EXPECT_NEAR(last.boresight_rms.nominal / loops.boresight_rms, 1.0, 1e-3);
   // Its hold attenuates the noise at high frequencies.

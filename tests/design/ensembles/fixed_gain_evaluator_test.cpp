@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
@@ -53,8 +54,7 @@ control::Controller full_controller() {
 }
 
 control::Controller state_space_controller() {
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   return control::state_space_controller(
       "sampled", plant::subsystem(control::sampled_controller(loops, 0.02),
                                   {"tachometer", "encoder"}, {"valve_demand"}));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/controller_refinement.hpp>
@@ -96,9 +97,7 @@ TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
   const TrackingProblem problem = problem_with_torque_noise();
   const std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, none;
   const plant::StateSpace loops =
-      control::sampled_loop(
-          plants.front().problem().plant,
-          {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}, 0.02)
+      control::sampled_loop(plants.front().problem().plant, reference::lag_loops(), 0.02)
           .controller;
   const auto lqg = search_limited_lqg(plants.front(), {});
   ASSERT_TRUE(lqg.found);

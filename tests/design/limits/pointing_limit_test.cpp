@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/analysis/peak_gain.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
@@ -202,8 +203,7 @@ TEST(PointingLimit, IsRobustOnEveryMemberOnceRobustified) {
 TEST(PointingLimit, RefinesFromTheLoopsItIsGiven) {
   const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
   const TrackingProblem problem = problem_with_torque_noise();
-  const DescribedController loops{
-      "lags", {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}};
+  const DescribedController loops{"lags", reference::lag_loops()};
   const auto from = [&](const DescribedController& start) {
     return pointing_limit(problem, {}, members, {loops}, {.threads = 2, .start = start});
   };

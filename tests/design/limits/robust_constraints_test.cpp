@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
@@ -38,9 +39,7 @@ TEST(RobustConstraints, ExcessIsTheLargestRatioToAGoal) {
   const std::vector<SampledSetting> moving{plants.with_friction(0.9)};
   const std::vector<SampledSetting> held{plants.with_friction(5.0)}, none;
   const auto controller =
-      control::sampled_loop(
-          moving.front().problem().plant,
-          {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}, 0.02)
+      control::sampled_loop(moving.front().problem().plant, reference::lag_loops(), 0.02)
           .controller;
   const auto response = SampledSetting::controller_response(controller, plants.frequency);
   const double peak = moving.front().highest_peak(response).magnitude;
@@ -64,9 +63,7 @@ TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
   const Plants plants;
   const std::vector<SampledSetting> moving{plants.with_friction(0.9)}, none;
   auto controller =
-      control::sampled_loop(
-          moving.front().problem().plant,
-          {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}}, 0.02)
+      control::sampled_loop(moving.front().problem().plant, reference::lag_loops(), 0.02)
           .controller;
   plant::AntennaPlant held = plants.problem.plant;
   held.drive.viscous_friction = 5.0;

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
-#include "static_controller.hpp"
+#include "lag_loops.hpp"
 #include <boresight/design/studies/adjustable_loop.hpp>
 
 namespace boresight::design {
@@ -41,7 +41,7 @@ TEST(AdjustableLoop, IsNoneWithoutAStableController) {
 
 TEST(AdjustableLoop, IsNoneOfAStateSpaceWhichHasNoGains) {
   TunedController row = tuned_at(10.0);
-  row.design.tuning.controller = {reference::static_controller(), {}};
+  row.design.tuning.controller = {reference::lag_loops_as_state_space().structure, {}};
   EXPECT_FALSE(adjustable_loop(TuningStudy{}, row).has_value());
   RecommendedDesign recommended;
   recommended.design = row.design;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
-#include "static_controller.hpp"
+#include "lag_loops.hpp"
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -25,6 +25,18 @@ TunedController tuned_row(const std::string& structure, TunedFor purpose, double
   row.design.tuning.status = TuningStatus::optimal;
   row.design.tuning.controller.structure = control::LoopStructure::named(structure);
   return row;
+}
+
+// The demo mission with one structure and few starts.
+Mission mission_of(const std::string& structure) {
+  Mission mission = reference::demo_mission();
+  mission.structures.loops = {{structure, control::LoopStructure::named(structure)}};
+  mission.starts = 2;
+  return mission;
+}
+
+PlantEnsemble nominal_ensemble(const Mission& mission) {
+  return {EnsembleSource::ranges, {{"nominal", linear_plant(mission.antenna)}}};
 }
 
 TuningStudy study_of(std::vector<TunedController> rows) {
@@ -94,11 +106,8 @@ TEST(TunedController, AddsTheLimitCycleInQuadrature) {
 }
 
 TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOut) {
-  Mission mission = reference::demo_mission();
-  mission.structures.loops = {{"PI", control::LoopStructure::named("PI")}};
-  mission.starts = 2;
-  const PlantEnsemble ensemble{EnsembleSource::ranges,
-                               {{"nominal", linear_plant(mission.antenna)}}};
+  Mission mission = mission_of("PI");
+  const PlantEnsemble ensemble = nominal_ensemble(mission);
   TuneOptions options;
   const TuningStudy one = tune_structures(mission, ensemble, options);
   options.threads = 2;
@@ -120,11 +129,8 @@ TEST(TuneStructures, IsTheSameForAnyNumberOfThreadsAndNamesWhatAnInterruptLeftOu
 
 // What the study recommends is what ran on the nonlinear antenna, and its own gains.
 TEST(StudyControllers, RunsWhatItRecommendsOnTheNonlinearAntenna) {
-  Mission mission = reference::demo_mission();
-  mission.structures.loops = {{"PI", control::LoopStructure::named("PI")}};
-  mission.starts = 2;
-  const PlantEnsemble ensemble{EnsembleSource::ranges,
-                               {{"nominal", linear_plant(mission.antenna)}}};
+  Mission mission = mission_of("PI");
+  const PlantEnsemble ensemble = nominal_ensemble(mission);
   const ControllerStudy study = study_controllers(mission, ensemble, {});
   const TunedController* best = recommended_or(study, Fitness::limit_cycle);
   ASSERT_NE(best, nullptr);
@@ -154,7 +160,7 @@ TEST(RecommendedLoops, AreTheLeastUnfitWithoutTheStateSpace) {
   }
   TunedController& states = study.controllers[2];
   states.structure = "SS";
-  states.design.tuning.controller.structure = reference::static_controller();
+  states.design.tuning.controller.structure = reference::lag_loops_as_state_space().structure;
   states.in_time = ControllerInTime{.boresight_rms = 0.2 * millidegree};
   EXPECT_EQ(recommended_tuned_controller(study, 10.0), &states);
   EXPECT_EQ(recommended_loops(study, 10.0), &study.controllers[1]);
@@ -164,11 +170,8 @@ TEST(RecommendedLoops, AreTheLeastUnfitWithoutTheStateSpace) {
 // A state space is compared with the loops only where it is asked for; then it starts from them,
 // and the choice is that of recommend() among all.
 TEST(StudyControllers, ComparesAStateSpaceWhereTheStructuresAskForOne) {
-  Mission mission = reference::demo_mission();
-  mission.structures.loops = {{"LL+L", control::LoopStructure::named("LL+L")}};
-  mission.starts = 2;
-  const PlantEnsemble ensemble{EnsembleSource::ranges,
-                               {{"nominal", linear_plant(mission.antenna)}}};
+  Mission mission = mission_of("LL+L");
+  const PlantEnsemble ensemble = nominal_ensemble(mission);
   const ControllerStudy loops = study_controllers(mission, ensemble, {});
   EXPECT_FALSE(loops.limit);
   mission.structures.state_space = true;

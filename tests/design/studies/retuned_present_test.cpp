@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "static_controller.hpp"
+#include "lag_loops.hpp"
 #include <boresight/design/studies/retuned_present.hpp>
 
 namespace boresight::design {
@@ -46,7 +46,8 @@ TEST(RetunedPresent, IsTheStructureOfFewestGainsWithoutAPresentOne) {
 TEST(RetunedPresent, IsNoStateSpace) {
   TuningStudy study = study_of({tuned_row("PI", TunedFor::robust)});
   study.controllers.push_back(tuned_row("FULL", TunedFor::robust));
-  study.controllers[1].design.tuning.controller.structure = reference::static_controller();
+  study.controllers[1].design.tuning.controller.structure =
+      reference::lag_loops_as_state_space().structure;
   EXPECT_EQ(retuned_present(study, "", 10.0), &study.controllers[0]);
 }
 

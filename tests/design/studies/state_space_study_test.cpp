@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
+#include "lag_loops.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/studies/pointing_evaluation.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
@@ -26,8 +27,7 @@ PointingLimit limit_of(const TrackingProblem& problem, const control::Controller
 TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   const Mission mission = reference::demo_mission();
   const TrackingProblem problem = tracking_problem(mission);
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   const auto simulated =
       verify_in_time_domain(mission, problem, loops, "LL+L", 1, 2, SecondIntegrator::none);
   ASSERT_TRUE(simulated);
@@ -63,8 +63,7 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
 TEST(StateSpaceCandidate, IsAssessedAsTheLoopsAre) {
   const Mission mission = reference::demo_mission();
   const TrackingProblem problem = tracking_problem(mission);
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   PlantEnsemble ensemble{EnsembleSource::ranges, {{"nominal", problem.plant}}};
   ensemble.members.push_back({"stiff", problem.plant});
   ensemble.members.back().plant.drive.oil_stiffness *= 1.2;
@@ -126,8 +125,7 @@ TEST(StateSpaceStudy, NeedsAControllerAndANonlinearAntenna) {
   const TrackingProblem problem = tracking_problem(mission);
   EXPECT_FALSE(study_state_space(mission, problem, {}, {}, 1));
   mission.antenna.nonlinear.reset();
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   EXPECT_FALSE(study_state_space(mission, problem, limit_of(problem, loops), {}, 1));
 }
 

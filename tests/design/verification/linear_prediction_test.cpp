@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/sampled_setting.hpp>
 #include <boresight/design/problem/static_bending.hpp>
@@ -15,7 +16,7 @@ namespace {
 constexpr double sample_time = 0.02;
 
 control::Controller leaky_controller() {
-  return {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  return reference::lag_loops();
 }
 
 control::Controller sampled(const control::Controller& controller) {

@@ -5,6 +5,7 @@
 
 #include "design/limit_cycle_loop.hpp"
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "reference_nonlinear_antenna.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
@@ -318,8 +319,7 @@ TEST(NonlinearVerification, RunsWithoutAUsableEndAreStatedResults) {
 }
 
 TEST(NonlinearVerification, SamplingIsNoInfluenceOnAStateSpace) {
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   auto loop = reference_loop();
   auto wanted = options();
   wanted.explain = true;

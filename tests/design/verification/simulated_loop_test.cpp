@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "reference_nonlinear_antenna.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
@@ -125,8 +126,7 @@ TEST(SimulatedLoop, NoiseIsThatOfTheExactCovariance) {
 
 // Without integrals; on the nonlinear antenna in motion, quantisation and all.
 TEST(SimulatedLoop, RunsAStateSpaceAsTheLoopsThatItIsOf) {
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  const control::Controller loops = reference::lag_loops();
   const auto loop = reference_loop(loops);
   auto same = loop;
   same.controller = control::state_space_controller(

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
@@ -13,13 +14,7 @@ namespace boresight::design {
 namespace {
 
 control::Controller states(double factor) {
-  const control::Controller loops{control::LoopStructure::named("LL+L"),
-                                  {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
-  plant::StateSpace system = plant::subsystem(control::sampled_controller(loops, 0.02),
-                                              {"tachometer", "encoder"}, {"valve_demand"});
-  system.c *= factor;
-  system.d *= factor;
-  return control::state_space_controller("states", system);
+  return control::with_output_times(factor, reference::lag_loops_as_state_space());
 }
 
 TEST(StableGain, IsOneOfAStableLoop) {

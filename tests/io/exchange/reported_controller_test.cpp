@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
-#include "static_controller.hpp"
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/exchange/controller_file.hpp>
 #include <boresight/io/exchange/reported_controller.hpp>
@@ -100,7 +100,7 @@ TEST(ControllerOfReport, HasAllGainsOfItsDesign) {
 // Of tune and of redesign: its matrices are those of the report's linear models.
 TEST(ControllerOfReport, IsAStateSpaceWhereThatIsRecommended) {
   const Case antenna = antenna_of_test();
-  const auto structure = reference::static_controller();
+  const auto structure = reference::lag_loops_as_state_space("state space, order 2").structure;
   const std::string models = R"(, "linear_models": {"state_space_controller": )" +
                              controller_json(*structure.state_space()) + "}}";
   const std::string tuned =
@@ -109,7 +109,7 @@ TEST(ControllerOfReport, IsAStateSpaceWhereThatIsRecommended) {
       design_of("PI-0", 0.1) +
       R"(}, {"structure": "SS", "tuned_for": "robust", "constraints_met": true,
           "boresight_rms_mdeg": 0.2, "gains_as_written": [],
-          "design": {"structure": "state space, order 0", "gains": {}}}]})" +
+          "design": {"structure": "state space, order 2", "gains": {}}}]})" +
       models;
   const auto found = controller_of_report(antenna, tuned, "tune.json", "");
   EXPECT_EQ(found.structure, "SS");
@@ -117,7 +117,7 @@ TEST(ControllerOfReport, IsAStateSpaceWhereThatIsRecommended) {
   EXPECT_TRUE(found.controller.structure == structure);
   EXPECT_EQ(controller_of_report(antenna, tuned, "tune.json", "PI-0").structure, "PI-0");
   const std::string redesigned =
-      R"({"tuning": {"design": {"structure": "state space, order 0", "gains": {}}})" + models;
+      R"({"tuning": {"design": {"structure": "state space, order 2", "gains": {}}})" + models;
   for (const char* asked : {"", "SS"}) {
     EXPECT_TRUE(controller_of_report(antenna, redesigned, "r.json", asked).controller.structure ==
                 structure);

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lag_loops.hpp"
 #include "refused_call.hpp"
 #include "scratch_folder.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
@@ -18,7 +19,7 @@ using testing::IsEmpty;
 constexpr double sample_time = 0.02;
 
 control::Controller leaky() {
-  return {control::LoopStructure::named("LL+L"), {0.3, 3.0, 40.0, 4.0, 1.5, 15.0}};
+  return reference::lag_loops();
 }
 
 class SampledControllerFileTest : public testing::Test {

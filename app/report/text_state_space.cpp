@@ -124,7 +124,7 @@ std::string state_space_advantage(const design::StateSpaceStudy& study,
   return fmt::format(
       "A state-space controller of the same sensors ({}) would be better, but cannot be "
       "commissioned loop by loop: {:.3f} mdeg rms simulated, {} (95 % {} to {}) beside {}. "
-      "--structure SS recommends it.",
+      "--structure SS ranks it with the loops; docs/control-structures.md lists what it lacks.",
       study.simulated.controller, compared_rms(study.simulated) / millidegree,
       signed_percent(study.change->value), signed_percent(study.change->lower),
       signed_percent(study.change->upper), loops.controller);

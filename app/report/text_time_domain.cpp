@@ -137,6 +137,39 @@ Document limit_cycle_part(const TimeDomainSection& section) {
   return text;
 }
 
+// The same with other friction: which of it, and how far.
+Document standstill_part(const TimeDomainSection& section) {
+  const auto& runs = section.standstill;
+  if (runs.size() < 2) return {};
+  int all = 0;
+  std::vector<std::string> found, frictions;
+  double largest = 0.0;
+  for (const design::StandstillRuns& one : runs) {
+    all += one.starts;
+    largest = std::max(largest, one.encoder_amplitude);
+    if (frictions.empty() || frictions.back() != one.friction) {
+      frictions.emplace_back(one.friction);
+    }
+    if (one.limit_cycles == 0) continue;
+    const bool complete = std::isfinite(one.encoder_amplitude);
+    found.push_back(fmt::format(
+        "{} {}: {} of {} runs{}", one.friction, one.rate == 0.0 ? "at rest" : "tracking",
+        one.limit_cycles, one.starts,
+        complete ? fmt::format(", +-{} mdeg at the encoder", mdeg(one.encoder_amplitude))
+                 : std::string(", not all complete")));
+  }
+  return wrapped(
+      found.empty()
+          ? fmt::format("With other friction ({}): no lasting limit cycle in {} runs, +-{} mdeg at "
+                        "the encoder at most.",
+                        fmt::join(frictions, "; "), all, mdeg(largest))
+          : fmt::format("With other friction, limit cycles in runs of {:g} s: {}. None with the "
+                        "rest of {}.",
+                        section.options.limit_cycle_duration, fmt::join(found, "; "),
+                        fmt::join(frictions, "; ")),
+      "  ", "  ");
+}
+
 Document reversal_part(const TimeDomainSection& section) {
   if (!section.result.reversal) return {};
   const auto& reversal = *section.result.reversal;
@@ -282,7 +315,8 @@ Document candidates_part(const TimeDomainSection& section) {
 Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.controller) +
          wind_part(section) + integrators_part(section) + static_part(section) +
-         limit_cycle_part(section) + reversal_part(section) + slew_part(section) +
+         limit_cycle_part(section) + standstill_part(section) + reversal_part(section) +
+         slew_part(section) +
          wrapped(
              fmt::format("The controller: sampled every {:g} s with one sample of computing, "
                          "feedforward, shaped commands, anti-windup. Encoder resolution: {} mdeg. "

@@ -32,10 +32,22 @@ struct Pole {
   Eigen::Vector3cd residue;
 };
 
+// Of a pair in delta, PoleBounds::damping: with b1 = -2 Re, b0 = |place|^2.
+double damping_of(const Complex& place, double sample_time) {
+  return -place.real() / std::abs(place) - 0.5 * sample_time * std::abs(place);
+}
+
+// The pair of that size with that damping.
+Complex damped(const Complex& place, double damping, double sample_time) {
+  const double size = std::abs(place);
+  const double real = size * (damping + 0.5 * sample_time * size);
+  return {-real, std::sqrt(std::max(0.0, size * size - real * real))};
+}
+
 }  // namespace
 
-ParallelSections::ParallelSections(const plant::StateSpace& controller, double slowest_pole)
-    : sample_time_(controller.sample_time), slowest_pole_(slowest_pole) {
+ParallelSections::ParallelSections(const plant::StateSpace& controller, const PoleBounds& bounds)
+    : sample_time_(controller.sample_time), bounds_(bounds) {
   if (!(sample_time_ > 0.0)) {
     throw InvalidInput("parallel sections: expected a sampled controller, found a continuous one");
   }
@@ -186,15 +198,18 @@ ParallelSections::Response ParallelSections::response(const Eigen::VectorXd& par
 
 // z = 1 + T delta within the unit circle (Jury): b1 > T b0 and 4 > 2 T b1 - T^2 b0.
 ParallelSections::Stability ParallelSections::stability(const Eigen::VectorXd& parameters) const {
-  const Index each = slowest_pole_ > 0.0 ? 2 : 1;
+  const double slowest = bounds_.slowest;
+  const Index each = slowest > 0.0 ? 2 : 1;
   const Index count = each * order();
   Stability result{Eigen::VectorXd(count), Eigen::MatrixXd::Zero(count, parameters.size())};
   Index next = 0, row = 0;
   for (Index j = 0; j < pairs_; ++j, next += of_pair, row += 2 * each) {
-    result.conditions[row] =
-        parameters[next + 1] + std::log(sample_time_) - parameters[next] + reserve;
+    // Damped enough: b1 > T b0 + 2 damping sqrt(b0).
+    const double undamped = sample_time_ * std::exp(parameters[next + 1]);
+    const double damped = bounds_.damping * std::exp(0.5 * parameters[next + 1]);
+    result.conditions[row] = std::log(undamped + 2.0 * damped) - parameters[next] + reserve;
     result.gradients(row, next) = -1.0;
-    result.gradients(row, next + 1) = 1.0;
+    result.gradients(row, next + 1) = (undamped + damped) / (undamped + 2.0 * damped);
     const double first = 2.0 * sample_time_ * std::exp(parameters[next]);
     const double second = sample_time_ * sample_time_ * std::exp(parameters[next + 1]);
     result.conditions[row + 1] = first - second - 4.0 + reserve;
@@ -202,10 +217,10 @@ ParallelSections::Stability ParallelSections::stability(const Eigen::VectorXd& p
     result.gradients(row + 1, next + 1) = -second;
     if (each == 1) continue;
     // Real parts beyond s: b1 > 2 s, and for real poles b0 + s^2 > s b1.
-    const double b0 = std::exp(parameters[next + 1]), square = slowest_pole_ * slowest_pole_;
-    result.conditions[row + 2] = std::log(2.0 * slowest_pole_) - parameters[next];
+    const double b0 = std::exp(parameters[next + 1]), square = slowest * slowest;
+    result.conditions[row + 2] = std::log(2.0 * slowest) - parameters[next];
     result.gradients(row + 2, next) = -1.0;
-    result.conditions[row + 3] = std::log(slowest_pole_) + parameters[next] - std::log(b0 + square);
+    result.conditions[row + 3] = std::log(slowest) + parameters[next] - std::log(b0 + square);
     result.gradients(row + 3, next) = 1.0;
     result.gradients(row + 3, next + 1) = -b0 / (b0 + square);
   }
@@ -213,15 +228,25 @@ ParallelSections::Stability ParallelSections::stability(const Eigen::VectorXd& p
     result.conditions[row] = parameters[next] + std::log(0.5 * sample_time_) + reserve;
     result.gradients(row, next) = 1.0;
     if (each == 2) {
-      result.conditions[row + 1] = std::log(slowest_pole_) - parameters[next];
+      result.conditions[row + 1] = std::log(slowest) - parameters[next];
       result.gradients(row + 1, next) = -1.0;
     }
   }
   return result;
 }
 
+PoleBounds bounds_of(const plant::StateSpace& controller) {
+  PoleBounds bounds{HUGE_VAL, HUGE_VAL};
+  for (const Complex& pole : numerics::eigen_decomposition(controller.a).values) {
+    const Complex place = (pole - 1.0) / controller.sample_time;
+    bounds.slowest = std::min(bounds.slowest, -place.real());
+    bounds.damping = std::min(bounds.damping, damping_of(place, controller.sample_time));
+  }
+  return bounds;
+}
+
 plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
-                                  const plant::StateSpace& other, double slowest_pole) {
+                                  const plant::StateSpace& other, const PoleBounds& bounds) {
   const double time = controller.sample_time;
   const Eigen::VectorXcd poles = numerics::eigen_decomposition(other.a).values;
   std::vector<Complex> added;
@@ -230,10 +255,11 @@ plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
     if (pole.imag() < 0.0) continue;
     Complex place = (pole - 1.0) / time;
     if (std::abs(place.imag()) <= real_within * std::abs(place)) place.imag(0.0);
-    if (place.real() > -slowest_pole) {
-      place.real(-room * slowest_pole);
+    if (place.real() > -bounds.slowest) {
+      place.real(-room * bounds.slowest);
       room += 0.1;
     }
+    if (damping_of(place, time) < bounds.damping) place = damped(place, bounds.damping, time);
     added.push_back(place);
   }
   plant::StateSpace result = from_sensors(controller);

@@ -9,6 +9,15 @@
 
 namespace boresight::design {
 
+/// What poles must keep.
+struct PoleBounds {
+  double slowest = 0.0;  // rad/s: their real parts in delta are beyond
+  /// Damping ratio of a pair, (b1 - T b0)/(2 sqrt(b0)) in terms of ParallelSections: that of a
+  /// continuous pair where it is slow against the samples, and 0 at the limit of stability. A
+  /// sharper resonance of a controller would fit one plant.
+  double damping = 0.0;
+};
+
 /// A stable sampled controller of tachometer, encoder and motor torque as a sum of sections, in
 /// terms of delta = (z - 1)/T, which keeps the digits of poles that are slow against the samples
 /// (R. H. Middleton, G. C. Goodwin, Digital Control and Estimation, 1990):
@@ -24,8 +33,8 @@ class ParallelSections {
   /// has zeros.
   /// @throws InvalidInput without the output or for a controller that is not sampled or not stable;
   /// NumericalFailure as numerics::eigen_decomposition (repeated poles).
-  /// `slowest_pole`: rad/s, what stability() keeps the real parts of all poles in delta beyond.
-  explicit ParallelSections(const plant::StateSpace& controller, double slowest_pole = 0.0);
+  /// `bounds`: what stability() keeps.
+  explicit ParallelSections(const plant::StateSpace& controller, const PoleBounds& bounds = {});
 
   const Eigen::VectorXd& parameters() const { return parameters_; }
   Eigen::Index order() const { return 2 * pairs_ + singles_; }
@@ -47,7 +56,7 @@ class ParallelSections {
   };
   Response response(const Eigen::VectorXd& parameters, const Eigen::ArrayXd& frequency) const;
 
-  /// Stable, and with no pole slower than allowed, where all are negative: conditions on the
+  /// Stable, and with all poles within their bounds, where all are negative: conditions on the
   /// sections and their gradients, conditions x parameters.
   struct Stability {
     Eigen::VectorXd conditions;
@@ -56,16 +65,21 @@ class ParallelSections {
   Stability stability(const Eigen::VectorXd& parameters) const;
 
  private:
-  double sample_time_ = 0.0, slowest_pole_ = 0.0;
+  double sample_time_ = 0.0;
+  PoleBounds bounds_;
   Eigen::Index pairs_ = 0, singles_ = 0;  // sections of second and of first order
   Eigen::VectorXd parameters_;
 };
 
+/// The bounds that a controller's poles keep. @throws NumericalFailure as
+/// numerics::eigen_decomposition.
+PoleBounds bounds_of(const plant::StateSpace& controller);
+
 /// A sampled controller, as a function of the three sensors alone, with poles of another one added
-/// that do nothing yet, for a refinement to use: with zero numerators. Poles slower than
-/// `slowest_pole` (rad/s) become as fast, each a little faster than the last, so that none are
-/// repeated. @throws InvalidInput without the output valve_command.
+/// that do nothing yet, for a refinement to use: with zero numerators. Poles beyond the bounds are
+/// moved within them, slow ones each a little faster than the last, so that none are repeated.
+/// @throws InvalidInput without the output valve_command.
 plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
-                                  const plant::StateSpace& other, double slowest_pole);
+                                  const plant::StateSpace& other, const PoleBounds& bounds);
 
 }  // namespace boresight::design

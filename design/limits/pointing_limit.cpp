@@ -1,8 +1,6 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <span>
 
 #include <fmt/format.h>
@@ -51,15 +49,15 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
   return slopes;
 }
 
-// Small motion of amplitude A across an edge between two codes of the encoder is seen as a square
-// wave, by the describing function as A times 2 q/(pi A), q its step (Gelb and Vander Velde, 1968);
-// dry friction then acts as a slope that is inverse to A. The constraint's largest slope is that of
-// A = q/2. These factors of it, with the gain of each, lead to where friction holds the motor.
-constexpr std::array<double, 4> slopes_at_edges{3.0, 10.0, 30.0, 100.0};
-constexpr double gain_at_half_a_step = 4.0 / std::numbers::pi;
+// Of what |S| may exceed 1 by, the part that a refined controller uses: the members are some of the
+// plants that there may be, and 99 % of others meet the constraint then as well.
+constexpr double used_of_peak = 0.6;
+// Largest |S| at edges of the encoder. With 3, motion at rest grew until it reached the next edge.
+constexpr double edge_peak = 2.5;
 // No pole of a refined controller is slower: a slew would leave an error for minutes.
-constexpr double slowest_pole = 0.1;
-constexpr int steps_from_loops = 40;
+// None is so little damped that it would fit a resonance of one plant.
+constexpr PoleBounds pole_bounds{.slowest = 0.1, .damping = 0.05};
+constexpr int steps_from_loops = 60;
 
 class Study {
  public:
@@ -67,8 +65,7 @@ class Study {
         const std::vector<EnsembleMember>& members, const PointingLimitOptions& options)
       : threads_(options.threads),
         start_(options.start),
-        accepts_(options.accepts),
-        confirms_(options.confirms),
+        misses_(options.misses),
         ratio_(problem.gear_ratio),
         goals_{goals.sensitivity_peak[1], goals.control_effort},
         filter_(fit_wind_filter(problem)) {
@@ -90,15 +87,18 @@ class Study {
     add(settings_, "nominal", problem.plant);
     for (const EnsembleMember& member : members) add(settings_, member.name, member.plant);
     for (const EnsembleMember& member : held) add(at_standstill_, member.name, member.plant);
-    if (!goals.standstill || goals.standstill->friction.empty()) return;
-    const std::vector<double>& slopes = goals.standstill->friction;
-    stated_slopes_ = slopes.size();
-    for (const double factor : slopes_at_edges) {
+    refined_goals_ = goals_;
+    refined_goals_.sensitivity_peak = 1.0 + used_of_peak * (goals_.sensitivity_peak - 1.0);
+    refined_goals_.position_peak = goals.sensitivity_peak[2];
+    refined_goals_.edge_peak = edge_peak;
+    if (!goals.standstill) return;
+    stated_slopes_ = goals.standstill->friction.size();
+    for (const Standstill::Edge& edge : goals.standstill->edges) {
       plant::AntennaPlant plant = problem.plant;
-      plant.drive.viscous_friction = factor * *std::ranges::max_element(slopes);
-      at_edges_.emplace_back(fmt::format("edge, friction x {:.3g}", factor), plant, filter_,
-                             problem.noise, options.sample_time, frequency,
-                             factor * gain_at_half_a_step);
+      plant.drive.viscous_friction = edge.friction;
+      at_edges_.emplace_back(fmt::format("edge, friction {:.3g} N.m.s/rad", edge.friction), plant,
+                             filter_, problem.noise, options.sample_time, frequency,
+                             edge.encoder_gain);
     }
   }
 
@@ -150,19 +150,18 @@ class Study {
       const plant::StateSpace& lqg = robust.design.controller;
       std::optional<RefinementResult> found;
       if (start_) {
-        const auto start = with_idle_poles(sampled(start_->controller), lqg, slowest_pole);
+        const auto start = with_idle_poles(sampled(start_->controller), lqg, pole_bounds);
         RefinementOptions options;
         options.steps = steps_from_loops;
-        options.slowest_pole = slowest_pole;
+        options.poles = pole_bounds;
         const auto stated = std::span(at_standstill_).first(stated_slopes_);
         for (const auto edges : {std::span(at_edges_), std::span<const SampledSetting>()}) {
-          const RobustConstraints constraints(settings_, stated, edges, goals_, threads_);
+          const RobustConstraints constraints(settings_, stated, edges, refined_goals_, threads_);
           if (!constraints.stable(start)) continue;
-          if (accepts_ && accepts_(start)) options.accepts = accepts_;
-          options.confirms = confirms_;
+          options.misses = misses_;
           found = refine_controller(start, constraints, options);
           limit.refined_from = start_->name;
-          break;
+          if (found->feasible) break;
         }
       }
       if (!found) {
@@ -277,9 +276,9 @@ class Study {
 
   unsigned threads_;
   std::optional<DescribedController> start_;
-  std::function<bool(const plant::StateSpace&)> accepts_, confirms_;
+  std::function<int(const plant::StateSpace&)> misses_;
   double ratio_;
-  SampledLoopGoals goals_;
+  SampledLoopGoals goals_, refined_goals_;
   plant::ShapingFilter filter_;
   std::vector<SampledSetting> settings_;  // nominal, then the members
   std::vector<SampledSetting> at_standstill_;

@@ -85,12 +85,14 @@ struct PointingLimit {
   /// holds the motor (search_robust_lqg; the constraint's friction slopes, and 3 and 10 times the
   /// largest), of reduced order. None without members.
   std::optional<LimitedLqg> robustified;
-  /// A controller refined by gradient (refine_controller) under the same constraints, but for what
-  /// follows. It starts from PointingLimitOptions::start with the poles of the robustified LQG
-  /// added, and is constrained at the constraint's friction slopes and, if it is stable there, at
-  /// edges of the encoder. If no start is given, or it has integrals or is unstable somewhere, it
-  /// starts from the robustified LQG, under that one's constraints. None without that LQG, where
-  /// poles are repeated, and where no step meets every constraint.
+  /// A controller refined by gradient (refine_controller). It starts from
+  /// PointingLimitOptions::start with the poles of the robustified LQG added. Its constraints: Ms
+  /// at the valve, with a reserve for plants beyond the members; Ms of the position loop, cut at
+  /// the encoder; the effort; stability and both peaks at the friction slopes of
+  /// Constraints::standstill; and |S| at its edges of the encoder, unless the start is unstable
+  /// there or no step meets that. If no start is given, or it has integrals or is unstable
+  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
+  /// LQG, where poles are repeated, and where no step meets every constraint.
   std::optional<SampledDesign> refined;
   /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
   std::string refined_from;
@@ -116,9 +118,8 @@ struct PointingLimitOptions {
   unsigned threads = 1;
   /// Where the refinement starts.
   std::optional<DescribedController> start = std::nullopt;
-  /// Those of RefinementOptions, of a refinement from there. The first is asked of steps only if it
-  /// agrees to the start.
-  std::function<bool(const plant::StateSpace&)> accepts = {}, confirms = {};
+  /// That of RefinementOptions, of a refinement from there.
+  std::function<int(const plant::StateSpace&)> misses = {};
 };
 
 /// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and
@@ -126,7 +127,7 @@ struct PointingLimitOptions {
 /// valve command. Each design is evaluated from its closed loop: eigenvalues, covariance, response.
 /// The result does not depend on the number of threads. Takes about a second without members; the
 /// robust search takes some 0.3 s per member on one thread, the refinement 0.6 s, besides what
-/// `accepts` and `confirms` take.
+/// `misses` takes.
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
 /// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable
 /// or observable.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -21,13 +22,16 @@ constexpr double unstable = 3.0;
 
 void validate(const SampledLoopGoals& goals) {
   if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.edge_peak > 1.0 &&
-      goals.control_effort > 0.0) {
+      goals.position_peak.value_or(2.0) > 1.0 && goals.control_effort > 0.0) {
     return;
   }
+  const std::string position =
+      goals.position_peak ? fmt::format(", {} of the position loop", *goals.position_peak) : "";
   throw InvalidInput(fmt::format(
-      "sampled loops: expected peaks of the sensitivity above 1 and a valve_effort "
-      "above 0, found {}, {} at standstill, {} at an edge and {} rad/s",
-      goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak, goals.control_effort));
+      "sampled loops: expected peaks of the sensitivity above 1 and a valve_effort above 0, found "
+      "{}, {} at standstill, {} at an edge{} and {} rad/s",
+      goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak, position,
+      goals.control_effort));
 }
 
 RobustConstraints::RobustConstraints(std::span<const SampledSetting> plants,
@@ -63,23 +67,38 @@ bool RobustConstraints::stable(const plant::StateSpace& controller) const {
   return true;
 }
 
-double RobustConstraints::excess(const plant::StateSpace& controller) const {
+Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) const {
   const Eigen::ArrayXXcd response =
       SampledSetting::controller_response(controller, plants_.front().frequency());
-  std::vector<std::pair<const SampledSetting*, double>> limited;  // with the goal of its peak
-  const auto limit = [&](std::span<const SampledSetting> settings, double goal) {
-    for (const SampledSetting& one : settings) limited.emplace_back(&one, goal);
+  struct Limited {
+    const SampledSetting* setting;
+    bool position;
+    double goal;
   };
-  limit(plants_, goals_.sensitivity_peak);
-  limit(at_standstill_, goals_.standstill_peak);
-  limit(at_edges_, goals_.edge_peak);
-  std::vector<double> ratios(limited.size());
-  numerics::for_each_index(ratios.size(), threads_, [&](std::size_t i) {
-    const auto& [setting, goal] = limited[i];
-    const double peak = setting->highest_peak(response).magnitude;
-    ratios[i] = std::isfinite(peak) ? peak / goal : HUGE_VAL;
+  std::vector<Limited> limited;
+  const auto limit = [&](std::span<const SampledSetting> settings, bool position, double goal) {
+    for (const SampledSetting& one : settings) limited.push_back({&one, position, goal});
+  };
+  limit(plants_, false, goals_.sensitivity_peak);
+  limit(at_standstill_, false, goals_.standstill_peak);
+  limit(at_edges_, false, goals_.edge_peak);
+  if (goals_.position_peak) {
+    limit(plants_, true, *goals_.position_peak);
+    limit(at_standstill_, true, goals_.standstill_peak);
+  }
+  Eigen::VectorXd ratios(static_cast<Eigen::Index>(limited.size()));
+  numerics::for_each_index(limited.size(), threads_, [&](std::size_t i) {
+    const auto& [setting, position, goal] = limited[i];
+    const double peak =
+        (position ? setting->highest_position_peak(response) : setting->highest_peak(response))
+            .magnitude;
+    ratios[static_cast<Eigen::Index>(i)] = std::isfinite(peak) ? std::log(peak / goal) : HUGE_VAL;
   });
-  const double of_peak = std::log(std::ranges::max(ratios)) + reserve;
+  return ratios;
+}
+
+double RobustConstraints::excess(const plant::StateSpace& controller) const {
+  const double of_peak = peaks(controller).maxCoeff() + reserve;
   if (of_peak > 0.0) return std::min(of_peak, unstable);
   if (!stable(controller)) return unstable;
   std::vector<double> effort(plants_.size());
@@ -88,6 +107,16 @@ double RobustConstraints::excess(const plant::StateSpace& controller) const {
   });
   const double largest = *std::ranges::max_element(effort);
   return std::min(std::max(of_peak, std::log(largest / goals_.control_effort) + 1e-6), unstable);
+}
+
+Eigen::VectorXd RobustConstraints::rms(const plant::StateSpace& controller) const {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(plants_.size() + at_standstill_.size()));
+  numerics::for_each_index(static_cast<std::size_t>(result.size()), threads_, [&](std::size_t i) {
+    const SampledSetting& setting =
+        i < plants_.size() ? plants_[i] : at_standstill_[i - plants_.size()];
+    result[static_cast<Eigen::Index>(i)] = setting.boresight_rms(controller);
+  });
+  return result;
 }
 
 double RobustConstraints::largest_rms(const plant::StateSpace& controller) const {

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <span>
+
+#include <Eigen/Core>
 
 #include <boresight/design/limits/sampled_setting.hpp>
 
@@ -13,7 +16,10 @@ struct SampledLoopGoals {
   /// Largest |S| at the valve command on the plants at standstill (Constraints::standstill).
   double standstill_peak = 3.0;
   /// The same on the plants at standstill at an edge between two codes of the encoder.
-  double edge_peak = 6.0;
+  double edge_peak = 3.0;
+  /// Largest |S| of the position loop, cut at the encoder alone, and at standstill standstill_peak.
+  /// Not limited without.
+  std::optional<double> position_peak = std::nullopt;
 };
 
 /// @throws InvalidInput for a peak not above 1 or an effort not above 0.
@@ -44,8 +50,15 @@ class RobustConstraints {
   /// for an unstable loop or controller. Where a peak exceeds its goal only peaks count.
   double excess(const plant::StateSpace& controller) const;
 
-  /// The largest boresight rms (rad of motor) over the plants, not those at standstill or at edges,
-  /// with a controller that is stable on all.
+  /// ln of the ratio of each peak to its goal: of |S| at the valve command on the plants, those at
+  /// standstill and those at edges, then of the position loop's, if limited, on the plants and
+  /// those at standstill. Without regard to stability.
+  Eigen::VectorXd peaks(const plant::StateSpace& controller) const;
+
+  /// Boresight rms (rad of motor) on the plants, then on those at standstill, with a controller
+  /// that is stable on all.
+  Eigen::VectorXd rms(const plant::StateSpace& controller) const;
+  /// The largest over the plants, not those at standstill.
   double largest_rms(const plant::StateSpace& controller) const;
 
  private:

@@ -15,6 +15,9 @@
 namespace boresight::design {
 namespace {
 
+// Places among SampledSetting::sensors().
+constexpr Eigen::Index tachometer = 0, encoder = 1, motor_torque = 2;
+
 Eigen::ArrayXXcd responses(const plant::StateSpace& system, const Eigen::ArrayXd& frequency,
                            Eigen::Index channels, bool of_inputs) {
   plant::DenseResponse dense(system);
@@ -206,8 +209,19 @@ Eigen::ArrayXXcd SampledSetting::controller_response(const plant::StateSpace& co
 }
 
 SampledPeak SampledSetting::highest_peak(const Eigen::ArrayXXcd& controller_response) const {
-  const Eigen::ArrayXd level =
-      -(1.0 - (controller_response * response_).rowwise().sum()).abs().log();
+  return highest_of(-(1.0 - (controller_response * response_).rowwise().sum()).abs().log());
+}
+
+// S = (1 + L of the other sensors) / (1 + L of all).
+SampledPeak SampledSetting::highest_position_peak(
+    const Eigen::ArrayXXcd& controller_response) const {
+  const Eigen::ArrayXXcd loops = controller_response * response_;
+  const Eigen::ArrayXcd others = 1.0 - loops.col(tachometer) - loops.col(motor_torque);
+  return highest_of((others / (others - loops.col(encoder))).abs().log());
+}
+
+// Of ln |S| at the frequencies.
+SampledPeak SampledSetting::highest_of(const Eigen::ArrayXd& level) const {
   Eigen::Index top = 0;
   level.maxCoeff(&top);
   SampledPeak peak{frequency_[top], std::exp(level[top])};

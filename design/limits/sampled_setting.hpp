@@ -23,7 +23,7 @@ struct SampledEvaluation {
   double control_effort = 0.0;  // rad/s rms of the command from the sensors' noise
 };
 
-/// A local maximum of |S| = 1/|1 + L| at the valve command.
+/// A local maximum of |S| = 1/|1 + L|.
 struct SampledPeak {
   double frequency = 0.0;  // rad/s
   double magnitude = 0.0;
@@ -83,8 +83,10 @@ class SampledSetting {
   /// motor_torque): the same for every setting with these frequencies.
   static Eigen::ArrayXXcd controller_response(const plant::StateSpace& controller,
                                               const Eigen::ArrayXd& frequency);
-  /// Ms, interpolated between the frequencies by a parabola in the logarithms.
+  /// Ms at the valve command, interpolated between the frequencies by a parabola in the logarithms.
   SampledPeak highest_peak(const Eigen::ArrayXXcd& controller_response) const;
+  /// The same of the position loop: cut at the encoder alone, with tachometer and torque fed back.
+  SampledPeak highest_position_peak(const Eigen::ArrayXXcd& controller_response) const;
 
  private:
   struct ClosedLoop;
@@ -93,6 +95,7 @@ class SampledSetting {
   Eigen::MatrixXd noise_jolts(const ClosedLoop& loop) const;
   double boresight_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
                             double direct_variance) const;
+  SampledPeak highest_of(const Eigen::ArrayXd& level) const;
 
   std::string name_;
   plant::AntennaPlant plant_;

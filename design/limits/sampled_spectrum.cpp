@@ -17,6 +17,7 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 constexpr Index sensors = 3;
+constexpr Index tachometer = 0, motor_torque = 2;
 // Of a variance: what is left out of the densities.
 constexpr double negligible = 1e-9;
 // p of the smooth peak: it exceeds the largest |S| by less than 1 %.
@@ -68,6 +69,26 @@ double boresight_mean_square(const SampledSpectrum& spectrum, const ArrayXXcd& c
                                  2.0 * (closed * spectrum.cross).rowwise().sum().real() +
                                  spectrum.by_command * (closed * seen).rowwise().sum().real();
   return (spectrum.weights * density).sum() + spectrum.unavoidable_cost;
+}
+
+// ln of the smooth upper bound of the largest magnitude, and half of each value's share in it.
+struct SmoothPeak {
+  double logarithm = 0.0;
+  Eigen::ArrayXd shares;
+};
+
+SmoothPeak smooth_peak(const ArrayXcd& values) {
+  const Eigen::ArrayXd level = values.abs().log();
+  const double top = level.maxCoeff();
+  const Eigen::ArrayXd powers = ((level - top) * sharpness).exp();
+  const double sum = powers.sum();
+  return {top + std::log(sum) / sharpness, 0.5 / sum * powers};
+}
+
+// 1 + L of the feedback of tachometer and torque, without the encoder's.
+ArrayXcd inner_loops(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
+  return 1.0 - controller.col(tachometer) * spectrum.response.col(tachometer) -
+         controller.col(motor_torque) * spectrum.response.col(motor_torque);
 }
 
 }  // namespace
@@ -128,13 +149,18 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
   const ArrayXXcd closed = controller.colwise() * sensitivity;
   LoopFigures result;
 
-  const Eigen::ArrayXd level = sensitivity.abs().log();
-  const double top = level.maxCoeff();
-  const Eigen::ArrayXd powers = ((level - top) * sharpness).exp();
-  const double sum = powers.sum();
-  result.sensitivity_peak.logarithm = top + std::log(sum) / sharpness;
-  result.sensitivity_peak.gradient =
-      spectrum.response.colwise() * (sensitivity * (0.5 / sum * powers));
+  const SmoothPeak peak = smooth_peak(sensitivity);
+  result.sensitivity_peak = {peak.logarithm,
+                             spectrum.response.colwise() * (sensitivity * peak.shares)};
+  const ArrayXcd inner = inner_loops(spectrum, controller);
+  const SmoothPeak of_position = smooth_peak(sensitivity * inner);
+  result.position_peak = {of_position.logarithm,
+                          spectrum.response.colwise() * (sensitivity * of_position.shares)};
+  // The position loop's S = (1 + inner loops) S: it also changes with the inner ones.
+  for (const Index sensor : {tachometer, motor_torque}) {
+    result.position_peak.gradient.col(sensor) -=
+        spectrum.response.col(sensor) * of_position.shares / inner;
+  }
 
   // With the command u = S K y, a change dK adds d(S K) = S dK + S^2 (dK P) K to it.
   const auto chained = [&](const ArrayXXcd& of_command, double mean_square) {

@@ -44,6 +44,9 @@ struct LoopFigures {
   /// Of |S| at the valve command: ln(sum |S|^p)/p, a smooth upper bound of ln Ms at the
   /// frequencies.
   LoopFigure sensitivity_peak;
+  /// The same of |S| with the loop cut at the encoder alone, tachometer and torque fed back: of the
+  /// position loop.
+  LoopFigure position_peak;
 };
 
 LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);

@@ -16,6 +16,14 @@ namespace boresight::design {
 struct Standstill {
   double sensitivity_peak = 3.0;
   std::vector<double> friction = {};  // N m s/rad; see standstill_friction
+
+  /// A motion across an edge between two codes of the encoder.
+  struct Edge {
+    double friction = 0.0;      // N m s/rad, instead of the plant's viscous friction
+    double encoder_gain = 1.0;  // by which the reading counts more than the angle
+  };
+  /// Of encoder_edges: limits no loops, but the refinement of a state space (pointing_limit).
+  std::vector<Edge> edges = {};
 };
 
 /// The constraints of a design. Those per break are in the order of control::loop_breaks.

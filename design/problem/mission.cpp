@@ -31,7 +31,10 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
 
 Constraints constraints(const Mission& mission) {
   Constraints goals = mission.stated_constraints;
-  if (goals.standstill) goals.standstill->friction = standstill_friction(mission.antenna);
+  if (goals.standstill) {
+    goals.standstill->friction = standstill_friction(mission.antenna);
+    goals.standstill->edges = encoder_edges(mission.antenna);
+  }
   if (!mission.limits_gusts) return goals;
   goals.gust_torque = plant::available_wind_torque(mission.antenna);
   if (!(*goals.gust_torque > 0.0)) {

@@ -117,7 +117,7 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
 
 /// The constraints of a mission. Gusts, where limited, are limited to valve demands within the
 /// stroke (plant::largest_demand) and to torques within plant::available_wind_torque. Those at
-/// standstill, where given, have standstill_friction.
+/// standstill, where given, have standstill_friction and encoder_edges.
 /// @throws InvalidInput where friction and offset leave no torque.
 Constraints constraints(const Mission& mission);
 

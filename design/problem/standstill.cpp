@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include <boresight/design/problem/standstill.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -6,19 +8,48 @@
 #include <boresight/plant/antenna/friction.hpp>
 
 namespace boresight::design {
+namespace {
+
+// rad of motor: rounding to steps q errs by q/sqrt(12) rms.
+double encoder_step(const plant::Antenna& antenna) {
+  return std::sqrt(12.0) * sky_to_motor(antenna, antenna.sensors.encoder_noise);
+}
+
+// rad/s
+double hydraulic_frequency(const plant::Antenna& antenna) {
+  return two_pi * plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
+}
+
+// Of an edge: amplitude by the encoder's step, frequencies by that of the hydraulic mode.
+constexpr double edge_amplitude = 0.25;
+constexpr std::array<double, 4> edge_frequencies{0.27, 0.45, 0.8, 1.35};
+
+}  // namespace
 
 std::vector<double> standstill_friction(const plant::Antenna& antenna) {
-  const double step = std::sqrt(12.0) * sky_to_motor(antenna, antenna.sensors.encoder_noise);
+  const double step = encoder_step(antenna);
   if (!(step > 0.0)) return {};
-  const auto mode = plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna)));
   constexpr double sixth = 1.0 / 6.0;
-  const double rate = 0.5 * step * sixth * two_pi * mode.frequency;
+  const double rate = 0.5 * step * sixth * hydraulic_frequency(antenna);
   const double friction = plant::equivalent_friction(antenna.friction_curve, rate);
   std::vector<double> slopes;
   for (const double part : {sixth, 2.0 * sixth, 1.0}) {
     if (part * friction > antenna.drive.viscous_friction) slopes.push_back(part * friction);
   }
   return slopes;
+}
+
+std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna) {
+  if (standstill_friction(antenna).empty()) return {};
+  const double amplitude = edge_amplitude * encoder_step(antenna);
+  const double frequency = hydraulic_frequency(antenna);
+  std::vector<Standstill::Edge> edges;
+  for (const double part : edge_frequencies) {
+    edges.push_back(
+        {plant::equivalent_friction(antenna.friction_curve, amplitude * part * frequency),
+         2.0 / (std::numbers::pi * edge_amplitude)});
+  }
+  return edges;
 }
 
 }  // namespace boresight::design

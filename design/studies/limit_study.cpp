@@ -6,14 +6,6 @@
 #include <boresight/design/studies/time_domain_study.hpp>
 
 namespace boresight::design {
-namespace {
-
-// s, for steps of the refinement. A limit cycle that builds up later is found when the result is
-// confirmed.
-constexpr double first_look = 40.0;
-
-}  // namespace
-
 PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& section,
                                 const PlantEnsemble& ensemble, double wind_speed,
                                 unsigned threads) {
@@ -32,13 +24,8 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
     options.start = {description_of(*recommended), recommended->design.tuning.controller};
   }
   if (mission.antenna.nonlinear) {
-    options.accepts = [&](const plant::StateSpace& controller) {
-      return shows_no_limit_cycle(
-          mission, problem, controller,
-          {.first_look = first_look, .tracking = false, .threads = threads});
-    };
-    options.confirms = [&](const plant::StateSpace& controller) {
-      return shows_no_limit_cycle(mission, problem, controller, {.threads = threads});
+    options.misses = [&](const plant::StateSpace& controller) {
+      return limit_cycles_missed(mission, problem, controller, threads);
     };
   }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);

@@ -7,8 +7,8 @@ namespace boresight::design {
 
 /// Compares a finished study's controllers of one wind speed (m/s), and the present gains, with the
 /// lower bound for any controller at that speed. See design/limits/pointing_limit.hpp. The refined
-/// one starts from the recommended controller, if there is one. With Antenna::nonlinear its steps
-/// show no limit cycle at rest in a first look, and it is confirmed by shows_no_limit_cycle.
+/// one starts from the recommended controller, if there is one. With Antenna::nonlinear it is the
+/// last of the refinement's steps of which limit_cycles_missed is 0, or least.
 /// @throws as pointing_limit.
 PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& study,
                                 const PlantEnsemble& ensemble, double wind_speed, unsigned threads);

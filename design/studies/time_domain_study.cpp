@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -175,6 +174,8 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
   section = verify(mission, problem, controller, std::move(section));
+  section.standstill = standstill_runs(
+      loop_of(mission, problem, controller, section.encoder_resolution), section.options);
   add_own_present(mission, problem, section);
   return section;
 }
@@ -229,10 +230,10 @@ TimeDomainStudy TimeDomainChoice::chosen(ChoiceDetail detail) {
   TimeDomainStudy chosen = sections_[best];
   if (detail == ChoiceDetail::verified) {
     chosen.options.explain = chosen.options.second_integrator = true;
-    explain_in_wind(
-        problem_,
-        loop_of(mission_, problem_, controllers_[best].controller, chosen.encoder_resolution),
-        chosen.options, chosen.result);
+    const SimulatedLoop loop =
+        loop_of(mission_, problem_, controllers_[best].controller, chosen.encoder_resolution);
+    explain_in_wind(problem_, loop, chosen.options, chosen.result);
+    chosen.standstill = standstill_runs(loop, chosen.options);
     add_own_present(mission_, problem_, chosen);
   }
   if (sections_.size() == 1) return chosen;
@@ -273,35 +274,20 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
   return compare_in_time_domain(mission, problem, controller.name, controller.controller, options);
 }
 
-bool shows_no_limit_cycle(const Mission& mission, const TrackingProblem& problem,
-                          const plant::StateSpace& controller, const LimitCycleRuns& runs) {
-  const TimeDomainStudy section = plan(mission, problem, "", 1, 1);
+int limit_cycles_missed(const Mission& mission, const TrackingProblem& problem,
+                        const plant::StateSpace& controller, unsigned threads) {
+  const TimeDomainStudy section = plan(mission, problem, "", 1, threads);
   const auto loop = loop_of(mission, problem,
                             control::state_space_controller(
                                 "state space", control::antenna_state_space_controller(controller)),
                             section.encoder_resolution);
-  std::vector<double> rates{0.0};
-  if (runs.tracking && section.options.tracking_rate != 0.0) {
-    rates.push_back(section.options.tracking_rate);
+  const auto runs = standstill_runs(loop, section.options);
+  int all = 0, missed = 0;
+  for (const StandstillRuns& one : runs) all += one.starts;
+  for (const StandstillRuns& one : runs) {
+    missed += one.friction == runs.front().friction ? all * one.limit_cycles : one.limit_cycles;
   }
-  // One limit cycle ends the others' runs: what they find no longer matters.
-  std::atomic<bool> none = true;
-  numerics::for_each_index(rates.size() * limit_cycle_starts, runs.threads, [&](std::size_t i) {
-    if (!none) return;
-    const auto watched = [&](double duration) {
-      NonlinearVerificationOptions options = section.options;
-      options.limit_cycle_duration = duration;
-      return limit_cycle_run(loop, options, rates[i / limit_cycle_starts], i % limit_cycle_starts);
-    };
-    if (runs.first_look) {
-      const auto run = watched(*runs.first_look);
-      // NaN if the run failed, which the longer one tells.
-      if (run.encoder_amplitude < 0.5 * min_limit_cycle_amplitude(loop)) return;
-    }
-    const auto run = watched(section.options.limit_cycle_duration);
-    if (run.status != RunStatus::complete || run.limit_cycle) none = false;
-  });
-  return none;
+  return missed;
 }
 
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

@@ -13,6 +13,7 @@
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/design/verification/shared_winds.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
+#include <boresight/design/verification/standstill_runs.hpp>
 
 namespace boresight::design {
 
@@ -67,6 +68,10 @@ struct TimeDomainStudy {
   using Candidate = SimulatedCandidate;
   std::vector<Candidate> candidates;
 
+  /// Limit cycles with other friction (standstill_runs); empty of a controller that is only
+  /// compared.
+  std::vector<StandstillRuns> standstill;
+
   /// This controller as a candidate.
   Candidate own() const { return {controller, result, rms}; }
 };
@@ -82,9 +87,10 @@ enum class ChoiceDetail { compared, verified };
 /// Simulates a controller on a problem made of the mission: 300 s of wind with each influence
 /// switched off in turn, limit cycles, slow reversals and a slew. The slew covers one degree at the
 /// mission's rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one).
-/// It also computes the rms with its interval by simulated_rms. Takes some 4 s of computing on the
-/// 70-m antenna, over `threads`, and 2 s for a second integrator. None without Antenna::nonlinear.
-/// The result does not depend on the number of threads. @throws as verify_in_time.
+/// It also computes the rms with its interval by simulated_rms, and standstill_runs. Takes some 8 s
+/// of computing on the 70-m antenna, over `threads`, and 2 s for a second integrator. None without
+/// Antenna::nonlinear. The result does not depend on the number of threads. @throws as
+/// verify_in_time.
 std::optional<TimeDomainStudy> verify_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
     std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);
@@ -149,19 +155,13 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
 std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
     const control::Controller& controller, const NonlinearVerificationOptions& options);
-struct LimitCycleRuns {
-  /// s after settling: a start whose amplitude at the encoder is then below half of
-  /// min_limit_cycle_amplitude counts as free of a limit cycle. The others, and all if there is no
-  /// first look, run for NonlinearVerificationOptions::limit_cycle_duration.
-  std::optional<double> first_look = std::nullopt;
-  bool tracking = true;  // at the drive's tracking rate too, if it has one, not only at rest
-  unsigned threads = 1;
-};
 
-/// True if no start of the search for limit cycles (limit_cycle_run) ends in one. The problem is
-/// one of the mission, which must have Antenna::nonlinear. @throws as run_loop.
-bool shows_no_limit_cycle(const Mission& mission, const TrackingProblem& problem,
-                          const plant::StateSpace& controller, const LimitCycleRuns& runs);
+/// Runs of standstill_runs that end in a limit cycle; one with the friction as stated counts as
+/// many as all others together. 0: none. The problem is one of the mission, which must have
+/// Antenna::nonlinear. The result does not depend on the number of threads. @throws as run_loop.
+int limit_cycles_missed(const Mission& mission, const TrackingProblem& problem,
+                        const plant::StateSpace& controller, unsigned threads);
+
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,
                                  std::uint64_t seed, unsigned threads);

@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -102,45 +105,79 @@ TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
   const auto lqg = search_limited_lqg(plants.front(), {});
   ASSERT_TRUE(lqg.found);
   constexpr double slowest = 0.3;
-  const plant::StateSpace start = with_idle_poles(loops, lqg.controller, slowest);
+  const plant::StateSpace start = with_idle_poles(loops, lqg.controller, {.slowest = slowest});
   const double effort = plants.front().control_effort(start);
   const RobustConstraints constraints(plants, none, none, {2.5, 0.9 * effort}, 1);
   ASSERT_GT(constraints.excess(start), 0.05);
-  const auto found = refine_controller(start, constraints, {.steps = 50, .slowest_pole = slowest});
+  const auto found =
+      refine_controller(start, constraints, {.steps = 30, .poles = {.slowest = slowest}});
   EXPECT_TRUE(found.feasible);
   EXPECT_LE(constraints.excess(found.controller), 0.0);
   EXPECT_LT(found.boresight_rms, plants.front().boresight_rms(start));
   const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.controller.a).values;
   EXPECT_GT(((1.0 - poles.real().array()) / 0.02).minCoeff(), 0.99 * slowest);
 
-  // Steps that something else refuses do not count.
-  int asked = 0;
-  const auto refused =
-      refine_controller(start, constraints, {.steps = 50, .accepts = [&](const plant::StateSpace&) {
-                                               ++asked;
-                                               return false;
-                                             }});
-  EXPECT_FALSE(refused.feasible);
-  EXPECT_GT(asked, 0);
-  EXPECT_LE(asked, 3);
-
-  // The result is the last step that is confirmed, the last of all if none is.
-  const double bound = 0.5 * (found.boresight_rms + plants.front().boresight_rms(start));
-  const auto confirmed_from = [&](double least) {
+  // Of the steps the last is asked first what it misses, then earlier ones; the result misses
+  // least.
+  std::vector<double> asked;
+  const auto missing = [&](const std::function<bool(double)>& misses) {
+    asked.clear();
     return refine_controller(start, constraints,
-                             {.steps = 50,
-                              .slowest_pole = slowest,
-                              .confirms = [&, least](const plant::StateSpace& controller) {
-                                return plants.front().boresight_rms(controller) >= least;
+                             {.steps = 30,
+                              .poles = {.slowest = slowest},
+                              .misses = [&, misses](const plant::StateSpace& controller) {
+                                asked.push_back(plants.front().boresight_rms(controller));
+                                return misses(asked.back()) ? 1 : 0;
                               }});
   };
-  const auto earlier = confirmed_from(bound);
+  const double bound = 1.01 * found.boresight_rms;
+  const auto earlier = missing([&](double rms) { return rms < bound; });
   EXPECT_TRUE(earlier.feasible);
   EXPECT_LT(earlier.steps, found.steps);
+  EXPECT_EQ(asked.front(), found.boresight_rms);
+  EXPECT_TRUE(std::ranges::is_sorted(asked));
+  EXPECT_EQ(earlier.boresight_rms, asked.back());
   EXPECT_GE(earlier.boresight_rms, bound);
   EXPECT_LE(constraints.excess(earlier.controller), 0.0);
-  EXPECT_EQ(confirmed_from(0.0).controller.b, found.controller.b);
-  EXPECT_EQ(confirmed_from(HUGE_VAL).controller.b, found.controller.b);
+  EXPECT_EQ(missing([](double) { return false; }).controller.b, found.controller.b);
+  EXPECT_EQ(asked.size(), 1U);
+  EXPECT_EQ(missing([](double) { return true; }).controller.b, found.controller.b);
+  EXPECT_GT(asked.size(), 1U);
+}
+
+// The plant's resonance is the sharpest thing in the loop; the controller may have none as sharp.
+TEST(ControllerRefinement, LimitsThePositionLoopAndTheSharpnessOfTheController) {
+  const TrackingProblem problem = problem_with_torque_noise();
+  const std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, none;
+  const plant::StateSpace loops =
+      control::sampled_loop(plants.front().problem().plant, reference::lag_loops(), 0.02)
+          .controller;
+  const auto lqg = search_limited_lqg(plants.front(), {});
+  ASSERT_TRUE(lqg.found);
+  const PoleBounds poles{.slowest = 0.1, .damping = 0.1};
+  const plant::StateSpace start = with_idle_poles(loops, lqg.controller, poles);
+  const auto position_peak = [&](const plant::StateSpace& controller) {
+    return plants.front()
+        .highest_position_peak(
+            SampledSetting::controller_response(controller, plants.front().frequency()))
+        .magnitude;
+  };
+  SampledLoopGoals goals{2.5, 0.6};
+  const auto refined = [&] {
+    return refine_controller(start, {plants, none, none, goals, 1}, {.steps = 40, .poles = poles});
+  };
+  const auto free = refined();
+  ASSERT_TRUE(free.feasible);
+  goals.position_peak = 1.0 + 0.8 * (position_peak(free.controller) - 1.0);
+  const auto limited = refined();
+  EXPECT_TRUE(limited.feasible);
+  EXPECT_LE(position_peak(limited.controller), *goals.position_peak);
+  EXPECT_GT(position_peak(limited.controller), 0.9 * *goals.position_peak);
+  EXPECT_GT(limited.boresight_rms, 0.95 * free.boresight_rms);
+  for (const auto& one : {free, limited}) {
+    EXPECT_GT(bounds_of(one.controller).damping, 0.098);
+    EXPECT_GT(bounds_of(one.controller).slowest, 0.098);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -128,9 +130,11 @@ TEST(ParallelSections, ConditionsAreNegativeWhereNoPoleIsSlowerThanAllowed) {
   // The slowest of this controller: 0.00003 a sample.
   const double slowest = 3e-5 / 0.02;
   const Eigen::VectorXd here = ParallelSections(controller()).parameters();
-  EXPECT_LT(ParallelSections(controller(), 0.9 * slowest).stability(here).conditions.maxCoeff(),
+  EXPECT_LT(ParallelSections(controller(), {.slowest = 0.9 * slowest})
+                .stability(here)
+                .conditions.maxCoeff(),
             0.0);
-  const ParallelSections sections(controller(), 1.1 * slowest);
+  const ParallelSections sections(controller(), {.slowest = 1.1 * slowest});
   EXPECT_GT(sections.stability(here).conditions.maxCoeff(), 0.0);
   int slow = 0, all = 0;
   for (const Eigen::Index parameter : {0, 1, 8, 9, 16}) {
@@ -152,10 +156,34 @@ TEST(ParallelSections, ConditionsAreNegativeWhereNoPoleIsSlowerThanAllowed) {
   expect_gradients_of_conditions(sections);
 }
 
+// The pair 0.9 e^(+-0.4j): b0 = |p - 1|^2/T^2, b1 = 2 (1 - 0.9 cos 0.4)/T.
+TEST(ParallelSections, ConditionsAreNegativeWhereEveryPairIsDampedEnough) {
+  const double size = std::abs(std::polar(0.9, 0.4) - 1.0);
+  const double damping = (1.0 - 0.9 * std::cos(0.4)) / size - 0.5 * size;
+  EXPECT_NEAR(bounds_of(controller()).damping, damping, 1e-9);
+  EXPECT_NEAR(bounds_of(controller()).slowest, 3e-5 / 0.02, 1e-9);
+  const Eigen::VectorXd here = ParallelSections(controller()).parameters();
+  const auto worst = [&](double bound) {
+    return ParallelSections(controller(), {.damping = bound}).stability(here).conditions.maxCoeff();
+  };
+  EXPECT_LT(worst(0.95 * damping), 0.0);
+  EXPECT_GT(worst(1.05 * damping), 0.0);
+  expect_gradients_of_conditions(ParallelSections(controller(), {.damping = 1.05 * damping}));
+  // An idle pole beyond the bound comes to it, at the same size.
+  const auto found = with_idle_poles(controller(), controller(), {.damping = 1.2 * damping});
+  const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.a).values;
+  const auto moved = std::ranges::find_if(poles, [&](const std::complex<double>& pole) {
+    return pole.imag() > 0.0 && std::abs(pole - std::polar(0.9, 0.4)) > 1e-6;
+  });
+  ASSERT_NE(moved, poles.end());
+  EXPECT_NEAR(std::abs(*moved - 1.0), size, 1e-9);
+  EXPECT_NEAR((1.0 - moved->real()) / size - 0.5 * size, 1.2 * damping, 1e-9);
+}
+
 TEST(ParallelSections, IdlePolesChangeNothingAndAreFastEnough) {
   plant::StateSpace own = controller();
   own.a *= 0.7;
-  const plant::StateSpace found = with_idle_poles(own, controller(), 0.2);
+  const plant::StateSpace found = with_idle_poles(own, controller(), {.slowest = 0.2});
   EXPECT_EQ(found.a.rows(), 10);
   const auto expected = SampledSetting::controller_response(own, frequency());
   const auto response = SampledSetting::controller_response(found, frequency());
@@ -163,7 +191,7 @@ TEST(ParallelSections, IdlePolesChangeNothingAndAreFastEnough) {
   const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.a).values;
   // The pole at 0.99997, which is slower than 0.2 rad/s.
   EXPECT_NEAR(poles.real().maxCoeff(), 1.0 - 1.1 * 0.2 * 0.02, 1e-9);
-  const ParallelSections sections(found, 0.2);
+  const ParallelSections sections(found, {.slowest = 0.2});
   EXPECT_LT(sections.stability(sections.parameters()).conditions.maxCoeff(), 0.0);
 }
 

@@ -10,6 +10,7 @@
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
 #include <boresight/design/limits/robust_constraints.hpp>
+#include <boresight/design/limits/sampled_spectrum.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -98,6 +99,48 @@ TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
   EXPECT_EQ(with(unstable).excess(controller), 3.0);
 }
 
+// Cut at the encoder alone the loop is the rest of the controller about the plant: S of all over S
+// of the rest.
+TEST(RobustConstraints, ThePositionLoopIsCutAtTheEncoderAlone) {
+  const Plants plants;
+  const std::vector<SampledSetting> moving{plants.with_friction(0.9)};
+  const std::vector<SampledSetting> held{plants.with_friction(5.0)}, none;
+  const auto controller =
+      control::sampled_loop(moving.front().problem().plant, reference::lag_loops(), 0.02)
+          .controller;
+  plant::StateSpace rest = controller;
+  const auto encoder = std::ranges::find(rest.inputs, "encoder") - rest.inputs.begin();
+  rest.b.col(encoder).setZero();
+  rest.d.col(encoder).setZero();
+  const auto sensitivity = [&](const SampledSetting& setting, const plant::StateSpace& of) {
+    const auto response = SampledSetting::controller_response(of, plants.frequency);
+    return sensitivity_function(sampled_spectrum(setting, plants.frequency), response);
+  };
+  const auto position_peak = [&](const SampledSetting& setting) {
+    return (sensitivity(setting, controller) / sensitivity(setting, rest)).abs().maxCoeff();
+  };
+  const double peak = position_peak(moving.front()), at_rest = position_peak(held.front());
+  const auto response = SampledSetting::controller_response(controller, plants.frequency);
+  EXPECT_NEAR(moving.front().highest_position_peak(response).magnitude, peak, 2e-3 * peak);
+
+  const SampledLoopGoals goals{1e3, 1e3, 10.0 * at_rest, 1e3, peak / 1.1};
+  const RobustConstraints limited(moving, held, none, goals, 1);
+  EXPECT_NEAR(limited.excess(controller), std::log(1.1), 4e-3);
+  const Eigen::VectorXd ratios = limited.peaks(controller);
+  ASSERT_EQ(ratios.size(), 4);
+  EXPECT_NEAR(ratios[0],
+              std::log(moving.front().highest_peak(response).magnitude / goals.sensitivity_peak),
+              1e-12);
+  EXPECT_NEAR(ratios[2], std::log(1.1), 3e-3);
+  EXPECT_NEAR(ratios[3], std::log(0.1), 3e-3);
+  EXPECT_EQ(RobustConstraints(moving, held, none, {1e3, 1e3, 1e3}, 1).peaks(controller).size(), 2);
+
+  const Eigen::VectorXd rms = limited.rms(controller);
+  ASSERT_EQ(rms.size(), 2);
+  EXPECT_DOUBLE_EQ(rms[0], limited.largest_rms(controller));
+  EXPECT_DOUBLE_EQ(rms[1], held.front().boresight_rms(controller));
+}
+
 TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
   const Plants plants;
   const std::vector<SampledSetting> moving{plants.with_friction(0.9)}, none;
@@ -136,7 +179,7 @@ TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
               ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
   EXPECT_THAT(
       constraints(one, none, {2.0, 0.0, 3.0}),
-      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill, 6 "
+      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill, 3 "
                                             "at an edge and 0 rad/s")));
 }
 

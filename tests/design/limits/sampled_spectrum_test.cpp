@@ -68,6 +68,13 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
   expect_slope(found.boresight_rms, above.boresight_rms, below.boresight_rms);
   expect_slope(found.control_effort, above.control_effort, below.control_effort);
   expect_slope(found.sensitivity_peak, above.sensitivity_peak, below.sensitivity_peak);
+  expect_slope(found.position_peak, above.position_peak, below.position_peak);
+  // From above, by less than 1 %: a sum of powers over all frequencies.
+  const auto exact = [&](const SampledPeak& peak) { return std::log(peak.magnitude); };
+  const SampledPeak position = loop.setting.highest_position_peak(loop.response);
+  EXPECT_NEAR(found.position_peak.logarithm, exact(position), 0.01);
+  EXPECT_NEAR(found.sensitivity_peak.logarithm, exact(loop.setting.highest_peak(loop.response)),
+              0.01);
 }
 
 // Without a response of the plant the effort is a square of the controller: gradient and curvature

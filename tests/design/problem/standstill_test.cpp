@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,37 @@ TEST(StandstillFriction, IsThatOfHalfAnEncoderStep) {
   EXPECT_NEAR(slopes[0], slopes[2] / 6.0, 1e-12 * slopes[2]);
 }
 
+// A sine of amplitude A is read as a square wave of +-q/2, whose fundamental is 2 q/pi.
+TEST(EncoderEdges, AreDescribingFunctionsOfAQuarterOfAStep) {
+  const plant::Antenna antenna = plant::demo_antenna();
+  const auto edges = encoder_edges(antenna);
+  ASSERT_EQ(edges.size(), 4U);
+  const double step = std::sqrt(12.0) * gear_ratio(antenna) * antenna.sensors.encoder_noise;
+  const double mode =
+      two_pi * plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
+  constexpr int samples = 100000;
+  double fundamental = 0.0;
+  for (int i = 0; i < samples; ++i) {
+    const double phase = two_pi * (i + 0.5) / samples;
+    const double angle = 0.25 * step * std::sin(phase);
+    const double read = step * std::floor(angle / step) + 0.5 * step;
+    fundamental += 2.0 / samples * read * std::sin(phase);
+  }
+  double last = HUGE_VAL;
+  for (const Standstill::Edge& edge : edges) {
+    EXPECT_NEAR(edge.encoder_gain * 0.25 * step, fundamental, 1e-6 * fundamental);
+    EXPECT_LT(edge.friction, last);
+    last = edge.friction;
+  }
+  // The slowest and the fastest dissipate as friction does at the rate of that motion.
+  for (const auto& [edge, part] : {std::pair(edges.front(), 0.27), std::pair(edges.back(), 1.35)}) {
+    EXPECT_NEAR(edge.friction,
+                plant::equivalent_friction(antenna.friction_curve, 0.25 * step * part * mode),
+                1e-12 * edge.friction);
+  }
+  EXPECT_TRUE(encoder_edges(antenna_with_encoder_noise(0.0)).empty());
+}
+
 TEST(StandstillFriction, FallsWithTheEncoderStep) {
   // A coarser encoder hides limit cycles of larger amplitude, in which friction damps less.
   const double own = standstill_friction(antenna_with_encoder_noise(1.0)).back();
@@ -53,6 +85,7 @@ TEST(StandstillFriction, GoesIntoTheConstraintsOfAMissionThatAsks) {
   ASSERT_TRUE(goals.standstill.has_value());
   EXPECT_EQ(goals.standstill->sensitivity_peak, 2.5);
   EXPECT_EQ(goals.standstill->friction, standstill_friction(mission.antenna));
+  EXPECT_EQ(goals.standstill->edges.size(), encoder_edges(mission.antenna).size());
 }
 
 }  // namespace

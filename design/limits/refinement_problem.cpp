@@ -1,0 +1,308 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boresight/design/limits/refinement_problem.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/numerics/singular_values.hpp>
+
+namespace boresight::design {
+namespace {
+
+using Eigen::ArrayXXcd;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index sensors = ParallelSections::sensors;
+// Between neighbours on the grid of the gradients: a resonance of 0.5 % damping has some points.
+constexpr double spacing = 1.004;
+// Below the grid, where slow poles of a controller act.
+constexpr double slow_spacing = 1.3, slow_decades = 3.0;
+// What is kept in hand of peaks and effort, and by how much a step may miss it.
+constexpr double peak_margin = 2e-3, effort_margin = 4e-3, tolerance = 1e-3;
+// What an accepted step leaves of a correction that it does not need.
+constexpr double correction_fall = 0.7;
+// An rms at standstill may be that much of the start's when the largest over the plants is as
+// large.
+constexpr double allowance_at_standstill = 1.15;
+// Cost of missing a constraint by a factor of e: above what it can gain.
+constexpr double slack_cost = 5.0, max_slack = 3.0;
+constexpr int evaluations_a_step = 15;
+constexpr std::size_t plants_a_block = 6;
+constexpr Index figures_a_plant = 4;
+// A unit of the coordinates changes figures by about this fraction of themselves, over all plants.
+constexpr double unit_change = 0.4;
+// Of the largest curvature, scaled: directions with less hardly matter and get no more room.
+constexpr double min_curvature = 1e-3;
+
+Eigen::ArrayXd refinement_frequencies(const Eigen::ArrayXd& grid) {
+  std::vector<double> kept;
+  for (double place = grid[0] * std::pow(10.0, -slow_decades); place < grid[0] / slow_spacing;
+       place *= slow_spacing) {
+    kept.push_back(place);
+  }
+  for (const double place : grid) {
+    if (kept.empty() || place > spacing * kept.back()) kept.push_back(place);
+  }
+  return Eigen::Map<Eigen::ArrayXd>(kept.data(), static_cast<Index>(kept.size()));
+}
+
+// Real and imaginary parts one below the other, so that Re(a^H b) is a real product.
+MatrixXd stacked(const Eigen::MatrixXcd& matrix) {
+  MatrixXd result(2 * matrix.rows(), matrix.cols());
+  result << matrix.real(), matrix.imag();
+  return result;
+}
+
+// At each frequency the Hermitian form of a change of the response to the sensors.
+ArrayXXcd quadratic_form(const SampledSpectrum& spectrum, double goal,
+                                const ArrayXXcd& controller, bool with_rms) {
+  // Of ln S, weighted where |S| is next to its goal.
+  const Eigen::ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
+  const ArrayXXcd factors =
+      spectrum.response.colwise() * (sensitivity * (sensitivity.abs() / goal).min(1.0));
+  ArrayXXcd form(factors.rows(), sensors * sensors);
+  for (Index i = 0; i < sensors; ++i) {
+    for (Index j = 0; j < sensors; ++j) {
+      form.col(sensors * i + j) = factors.col(i).conjugate() * factors.col(j);
+    }
+  }
+  if (!with_rms) return form;
+  const Eigen::ArrayXXd of_effort = effort_curvature(spectrum, controller);
+  for (Index i = 0; i < sensors; ++i) form.col((sensors + 1) * i) += of_effort.col(i);
+  return form + boresight_curvature(spectrum, controller);
+}
+
+}  // namespace
+
+RefinementProblem::RefinementProblem(const plant::StateSpace& start,
+                                     const RobustConstraints& constraints,
+ const PoleBounds& bounds)
+    : constraints_(constraints),
+      sections_(start, bounds),
+      frequency_(refinement_frequencies(constraints.plants().front().frequency())),
+      centre_(sections_.parameters()) {
+  std::vector<const SampledSetting*> settings;
+  for (const auto group :
+       {constraints.plants(), constraints.at_standstill(), constraints.at_edges()}) {
+    for (const SampledSetting& one : group) settings.push_back(&one);
+  }
+  spectra_.resize(settings.size());
+  numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
+    spectra_[i] = sampled_spectrum(*settings[i], frequency_);
+  });
+  moving_ = constraints.plants().size();
+  rated_ = moving_ + constraints.at_standstill().size();
+  limited_positions_ = constraints.goals().position_peak ? rated_ : 0;
+  corrections_.setConstant(static_cast<Index>(all() + limited_positions_), peak_margin);
+  references_ = constraints.rms(start).array().log();
+  const auto moving = static_cast<Index>(moving_);
+  references_.head(moving).setConstant(references_.head(moving).maxCoeff());
+  references_.tail(references_.size() - moving).array() += std::log(allowance_at_standstill);
+  choose_directions();
+}
+
+double RefinementProblem::peak_goal(std::size_t i) const {
+  const SampledLoopGoals& goals = constraints_.goals();
+  if (i < moving_) return goals.sensitivity_peak;
+  return i < rated_ ? goals.standstill_peak : goals.edge_peak;
+}
+
+double RefinementProblem::objective(const VectorXd& rms) const {
+  return (rms.array().log() - references_.array()).maxCoeff();
+}
+
+void RefinementProblem::move_to(const Step& step) {
+  centre_ = step.parameters;
+  choose_directions();
+}
+
+void RefinementProblem::correct(const Step& step, const VectorXd& exact, Correction how) {
+  const VectorXd missed = (exact - step.peaks).cwiseMax(0.0).array() + peak_margin;
+  const double kept = how == Correction::again ? correction_fall : 1.0;
+  corrections_ = (kept * corrections_).cwiseMax(missed);
+}
+
+void RefinementProblem::choose_directions() {
+  const auto response = sections_.response(centre_, frequency_);
+  MatrixXd sum = curvature(response) / (unit_change * unit_change * static_cast<double>(all()));
+  // A pole that hardly matters must not leave all bounds either.
+  for (const Index k : sections_.logarithms()) sum(k, k) += 1.0;
+  VectorXd scale = sum.diagonal().cwiseSqrt();
+  // A parameter of no effect, as of a sensor without noise or response, stays within its box.
+  scale = (scale.array() > 0.0).select(scale.cwiseInverse(), 1.0);
+  const auto parts_of = numerics::singular_values(scale.asDiagonal() * sum * scale.asDiagonal());
+  const VectorXd size = (parts_of.values.array() + min_curvature).sqrt().inverse();
+  directions_ = scale.asDiagonal() * parts_of.u * size.asDiagonal();
+}
+
+// Of the sum over the plants: as each is a quadratic form in the change of the response at each
+// frequency, the forms are added up first.
+MatrixXd RefinementProblem::curvature(const ParallelSections::Response& response) const {
+  std::vector<ArrayXXcd> forms(all());
+  numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
+    forms[i] = quadratic_form(spectra_[i], peak_goal(i), response.value, i < moving_);
+  });
+  ArrayXXcd form = ArrayXXcd::Zero(frequency_.size(), sensors * sensors);
+  for (const ArrayXXcd& one : forms) form += one;
+  MatrixXd result = MatrixXd::Zero(centre_.size(), centre_.size());
+  for (Index i = 0; i < sensors; ++i) {
+    const auto own = sections_.parameters_of(i);
+    const MatrixXd left = stacked(response.by_parameters.at(static_cast<std::size_t>(i)));
+    for (Index j = 0; j < sensors; ++j) {
+      const MatrixXd right = stacked(form.col(sensors * i + j).matrix().asDiagonal() *
+                                     response.by_parameters.at(static_cast<std::size_t>(j)));
+      result(own, sections_.parameters_of(j)) += left.transpose() * right;
+    }
+  }
+  return result;
+}
+
+VectorXd RefinementProblem::moved(const std::vector<double>& point) const {
+  return centre_ + directions_ * Eigen::Map<const VectorXd>(point.data(), directions_.cols());
+}
+
+std::vector<LoopFigures> RefinementProblem::figures(
+    const ParallelSections::Response& response) const {
+  std::vector<LoopFigures> result(all());
+  numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
+    result[i] = loop_figures(spectra_[i], response.value);
+  });
+  return result;
+}
+
+VectorXd RefinementProblem::peaks(std::span<const LoopFigures> figures) const {
+  VectorXd result(corrections_.size());
+  for (std::size_t i = 0; i < all(); ++i) {
+    result[static_cast<Index>(i)] =
+        figures[i].sensitivity_peak.logarithm - std::log(peak_goal(i));
+  }
+  const SampledLoopGoals& goals = constraints_.goals();
+  for (std::size_t i = 0; i < limited_positions_; ++i) {
+    const double goal = i < moving_ ? *goals.position_peak : goals.standstill_peak;
+    result[static_cast<Index>(all() + i)] = figures[i].position_peak.logarithm - std::log(goal);
+  }
+  return result;
+}
+
+// 2 Re sum(gradient * dK) per parameter: a column a figure.
+MatrixXd RefinementProblem::by_parameters(const std::array<MatrixXd, sensors>& derivatives,
+                                          std::span<const LoopFigures> figures) const {
+  const Index count = figures.front().boresight_rms.gradient.rows();
+  MatrixXd weights(2 * count, figures_a_plant * static_cast<Index>(figures.size()));
+  MatrixXd result = MatrixXd::Zero(centre_.size(), weights.cols());
+  for (Index sensor = 0; sensor < sensors; ++sensor) {
+    Index column = 0;
+    for (const LoopFigures& one : figures) {
+      for (const LoopFigure* figure : {&one.boresight_rms, &one.control_effort,
+                                       &one.sensitivity_peak, &one.position_peak}) {
+        const auto gradient = figure->gradient.col(sensor);
+        weights.col(column++) << gradient.real(), -gradient.imag();
+      }
+    }
+    result(sections_.parameters_of(sensor), Eigen::all) +=
+        2.0 * derivatives.at(static_cast<std::size_t>(sensor)).transpose() * weights;
+  }
+  return result;
+}
+
+// The last variable is by how much constraints are missed. Constraints: the peaks, the efforts, the
+// conditions of stability.
+void RefinementProblem::evaluate(const std::vector<double>& point,
+                                 ConstrainedValues& values) const {
+  const VectorXd parameters = moved(point);
+  const auto response = sections_.response(parameters, frequency_);
+  std::array<MatrixXd, sensors> derivatives;
+  for (std::size_t i = 0; i < derivatives.size(); ++i) {
+    derivatives.at(i) = stacked(response.by_parameters.at(i));
+  }
+  const Index size = centre_.size();
+  const double slack = point.back();
+  const auto store = [&](std::vector<double>& rows, std::size_t row, const auto& gradient,
+                         double by_slack) {
+    Eigen::Map<VectorXd> target(rows.data() + row * point.size(), size + 1);
+    target.head(size) = gradient;
+    target[size] = by_slack;
+  };
+  const auto constrain = [&](std::size_t row, double value, const auto& gradient) {
+    values.constraints[row] = value - slack;
+    store(values.constraint_gradients, row, gradient, -1.0);
+  };
+  const std::vector<LoopFigures> of = figures(response);
+  const VectorXd peak = peaks(of) + corrections_;
+  const auto efforts = static_cast<std::size_t>(peak.size());
+  const double effort_goal = std::log(constraints_.goals().control_effort) - effort_margin;
+  // Products of some plants at a time: more would not stay in the processor's cache.
+  const std::size_t blocks = (all() + plants_a_block - 1) / plants_a_block;
+  numerics::for_each_index(blocks, constraints_.threads(), [&](std::size_t block) {
+    const std::size_t first = block * plants_a_block;
+    const std::size_t last = std::min(first + plants_a_block, all());
+    const MatrixXd gradients =
+        directions_.transpose() * by_parameters(derivatives, {&of[first], last - first});
+    for (std::size_t i = first; i < last; ++i) {
+      const auto gradient = [&](Index figure) {
+        return gradients.col(figures_a_plant * static_cast<Index>(i - first) + figure);
+      };
+      const auto place = [](std::size_t row) { return static_cast<Index>(row); };
+      if (i < rated_) {
+        values.objectives[i] =
+            of[i].boresight_rms.logarithm - references_[place(i)] + slack_cost * slack;
+        store(values.objective_gradients, i, gradient(0), slack_cost);
+      }
+      constrain(i, peak[place(i)], gradient(2));
+      if (i < limited_positions_) constrain(all() + i, peak[place(all() + i)], gradient(3));
+      if (i < moving_) {
+        constrain(efforts + i, of[i].control_effort.logarithm - effort_goal, gradient(1));
+      }
+    }
+  });
+  const auto stability = sections_.stability(parameters);
+  for (Index k = 0; k < stability.conditions.size(); ++k) {
+    constrain(efforts + moving_ + static_cast<std::size_t>(k), stability.conditions[k],
+              directions_.transpose() * stability.gradients.row(k).transpose());
+  }
+}
+
+RefinementProblem::Step RefinementProblem::step(double radius) const {
+  const auto size = static_cast<std::size_t>(centre_.size());
+  ConstrainedProblem problem;
+  problem.lower.assign(size, -radius);
+  problem.upper.assign(size, radius);
+  problem.lower.push_back(0.0);
+  problem.upper.push_back(max_slack);
+  problem.objectives = rated_;
+  problem.constraints = static_cast<std::size_t>(
+      corrections_.size() + static_cast<Index>(moving_) +
+      sections_.stability(centre_).conditions.size());
+  // The search's own record has only points that miss no constraint at all, and curved ones are
+  // always missed by a little.
+  Step result;
+  double at_centre = std::numeric_limits<double>::quiet_NaN(), least = HUGE_VAL;
+  problem.evaluate = [&](const std::vector<double>& point, ConstrainedValues& values) {
+    evaluate(point, values);
+    const double missed = std::max(0.0, values.violation() + point.back() - tolerance);
+    const double cost = values.cost() - slack_cost * point.back() + slack_cost * missed;
+    if (std::isnan(at_centre)) at_centre = cost;
+    if (cost < least) {
+      least = cost;
+      result.missed = missed;
+      result.parameters = moved(point);
+    }
+    return true;
+  };
+  FeasibleSearchOptions options;
+  options.evaluations_per_run = evaluations_a_step;
+  options.max_restarts = 0;
+  FeasibleSearch search(std::move(problem), options);
+  std::vector<double> first(size + 1, 0.0);
+  first.back() = std::clamp(search.evaluate(first)->violation(), 0.0, max_slack);
+  search.search_from(first);
+  result.gain = at_centre - least;
+  result.evaluations = search.evaluations();
+  result.controller = sections_.state_space(result.parameters);
+  result.peaks = peaks(figures(sections_.response(result.parameters, frequency_)));
+  return result;
+}
+
+}  // namespace boresight::design

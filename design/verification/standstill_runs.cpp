@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <boresight/design/verification/limit_cycle_search.hpp>
+#include <boresight/design/verification/standstill_runs.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+
+namespace boresight::design {
+namespace {
+
+void scale_torques(plant::FrictionCurve& curve, double factor) {
+  curve.coulomb_torque *= factor;
+  curve.breakaway_torque *= factor;
+  curve.saturating_torque *= factor;
+}
+
+}  // namespace
+
+std::vector<FrictionSet> friction_sets(const plant::MotorFriction& stated) {
+  std::vector<FrictionSet> sets{{"as stated", stated}};
+  if (!(plant::dry_friction(stated.curve, 0.0).value > 0.0)) return sets;
+  sets.push_back({"torques x 0.7", stated});
+  scale_torques(sets.back().friction.curve, 0.7);
+  sets.push_back({"torques x 1.3", stated});
+  scale_torques(sets.back().friction.curve, 1.3);
+  sets.push_back({"breakaway x 1.3, Stribeck rate x 0.5", stated});
+  sets.back().friction.curve.breakaway_torque *= 1.3;
+  sets.back().friction.curve.stribeck_rate *= 0.5;
+  sets.push_back({"Stribeck rate x 2, bristles x 0.3", stated});
+  sets.back().friction.curve.stribeck_rate *= 2.0;
+  sets.back().friction.bristle_stiffness *= 0.3;
+  return sets;
+}
+
+std::vector<StandstillRuns> standstill_runs(const SimulatedLoop& loop,
+                                            const NonlinearVerificationOptions& options) {
+  std::vector<SimulatedLoop> loops;
+  std::vector<StandstillRuns> result;
+  for (const FrictionSet& set : friction_sets(loop.antenna.friction)) {
+    loops.push_back(loop);
+    loops.back().antenna.friction = set.friction;
+    for (const double rate : {0.0, options.tracking_rate}) {
+      if (rate != 0.0 || result.empty() || result.back().friction != set.name) {
+        result.push_back({set.name, rate});
+      }
+    }
+  }
+  const std::size_t rates = result.size() / loops.size();
+  std::vector<LimitCycleResult> runs(result.size() * limit_cycle_starts);
+  numerics::for_each_index(runs.size(), options.threads, [&](std::size_t i) {
+    const std::size_t place = i / limit_cycle_starts;
+    runs[i] =
+        limit_cycle_run(loops[place / rates], options, result[place].rate, i % limit_cycle_starts);
+  });
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    StandstillRuns& of = result[i / limit_cycle_starts];
+    const bool complete = runs[i].status == RunStatus::complete;
+    ++of.starts;
+    if (!complete || runs[i].limit_cycle) ++of.limit_cycles;
+    of.encoder_amplitude = complete && !std::isnan(of.encoder_amplitude)
+                               ? std::max(of.encoder_amplitude, runs[i].encoder_amplitude)
+                               : std::numeric_limits<double>::quiet_NaN();
+  }
+  return result;
+}
+
+}  // namespace boresight::design

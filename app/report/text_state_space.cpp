@@ -102,8 +102,9 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   text += wrapped(
       fmt::format(
           "A gradient search over all parameters of the controller minimises the rms on the "
-          "worst plant. It keeps the limits on control effort and on Ms at the valve command "
-          "on each plant. Start of the search: {}. The result ran on the nonlinear antenna "
+          "worst plant. It keeps the limits on control effort and on Ms, at the valve command "
+          "and with the loop cut at the encoder, on each plant. Start of the search: {}. The "
+          "result ran on the nonlinear antenna "
           "as the recommended loops did, in the same wind of {:.3g} m/s.",
           study.start, study.wind_speed),
       "  ");
@@ -111,8 +112,8 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   text += wrapped(
       "It also meets the limit on Ms at standstill and is stable with its loop open. It is "
       "compared with the loops and recommended only where the structures name SS: it has no loops "
-      "to close one by one, no constraint on the rate loop alone or on the position loop, and no "
-      "anti-windup. --mat writes it as state_space_controller, which benchmark, simulate and "
+      "to close one by one, no constraint on the rate loop alone, and no anti-windup. --mat writes "
+      "it as state_space_controller, which benchmark, simulate and "
       "montecarlo take with `--controller FILE --part state_space_controller`.",
       "  ");
   return text;

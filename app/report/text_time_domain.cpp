@@ -137,37 +137,42 @@ Document limit_cycle_part(const TimeDomainSection& section) {
   return text;
 }
 
-// The same with other friction: which of it, and how far.
-Document standstill_part(const TimeDomainSection& section) {
-  const auto& runs = section.standstill;
-  if (runs.size() < 2) return {};
+// The same with other friction than stated, whose runs stand above.
+Document other_friction_part(const TimeDomainSection& section) {
   int all = 0;
-  std::vector<std::string> found, frictions;
   double largest = 0.0;
-  for (const design::StandstillRuns& one : runs) {
+  std::vector<std::string> found;
+  std::vector<std::string_view> with, without;
+  for (const design::LimitCyclesWithFriction& one : section.limit_cycles_by_friction) {
+    if (one.friction == section.limit_cycles_by_friction.front().friction) continue;
     all += one.starts;
     largest = std::max(largest, one.encoder_amplitude);
-    if (frictions.empty() || frictions.back() != one.friction) {
-      frictions.emplace_back(one.friction);
-    }
+    if (without.empty() || without.back() != one.friction) without.push_back(one.friction);
     if (one.limit_cycles == 0) continue;
-    const bool complete = std::isfinite(one.encoder_amplitude);
-    found.push_back(fmt::format(
-        "{} {}: {} of {} runs{}", one.friction, one.rate == 0.0 ? "at rest" : "tracking",
-        one.limit_cycles, one.starts,
-        complete ? fmt::format(", +-{} mdeg at the encoder", mdeg(one.encoder_amplitude))
-                 : std::string(", not all complete")));
+    if (with.empty() || with.back() != one.friction) with.push_back(one.friction);
+    found.push_back(
+        fmt::format("{} {} in {} of {} runs{}", one.friction,
+                    one.rate == 0.0 ? "at rest" : "when tracking", one.limit_cycles, one.starts,
+                    std::isfinite(one.encoder_amplitude)
+                        ? fmt::format(", +-{} mdeg at the encoder", mdeg(one.encoder_amplitude))
+                        : std::string(", not all complete")));
   }
-  return wrapped(
+  if (all == 0) return {};
+  std::erase_if(without, [&](std::string_view friction) {
+    return std::ranges::find(with, friction) != with.end();
+  });
+  std::string text =
       found.empty()
-          ? fmt::format("With other friction ({}): no lasting limit cycle in {} runs, +-{} mdeg at "
-                        "the encoder at most.",
-                        fmt::join(frictions, "; "), all, mdeg(largest))
-          : fmt::format("With other friction, limit cycles in runs of {:g} s: {}. None with the "
-                        "rest of {}.",
-                        section.options.limit_cycle_duration, fmt::join(found, "; "),
-                        fmt::join(frictions, "; ")),
-      "  ", "  ");
+          ? fmt::format(
+                "With other friction ({}): no limit cycle in {} runs, +-{} mdeg at the "
+                "encoder at most.",
+                fmt::join(without, "; "), all, mdeg(largest))
+          : fmt::format("With other friction, limit cycles in runs of {:g} s, not confirmed: {}.",
+                        section.options.limit_cycle_duration, fmt::join(found, "; "));
+  if (!found.empty() && !without.empty()) {
+    text += fmt::format(" None with {}.", fmt::join(without, "; "));
+  }
+  return wrapped(text, "  ", "  ");
 }
 
 Document reversal_part(const TimeDomainSection& section) {
@@ -315,7 +320,7 @@ Document candidates_part(const TimeDomainSection& section) {
 Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.controller) +
          wind_part(section) + integrators_part(section) + static_part(section) +
-         limit_cycle_part(section) + standstill_part(section) + reversal_part(section) +
+         limit_cycle_part(section) + other_friction_part(section) + reversal_part(section) +
          slew_part(section) +
          wrapped(
              fmt::format("The controller: sampled every {:g} s with one sample of computing, "

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -18,6 +17,8 @@ namespace {
 constexpr double max_excess = 0.02;
 // So many times in a row.
 constexpr int max_corrections = 2;
+// Of ln: what a step may miss of the search's own constraints, which keep something in hand.
+constexpr double max_missed = 0.01;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5, growth = 2.0;
 // Steps that RefinementOptions::misses is asked of.
 constexpr int max_asked = 6;
@@ -56,16 +57,20 @@ class Refinement {
       }
       const double excess = constraints_.excess(found.controller);
       // On the way to where all constraints are met, half of what the search shows is enough.
-      const double beyond =
-          excess - (result.feasible ? 0.0 : std::max(0.0, 0.5 * (missed + found.missed)));
+      const double beyond = excess - (result.feasible ? 0.0 : 0.5 * (missed + found.missed));
       if (beyond > 0.0) {
-        if (beyond < max_excess && corrected < max_corrections) {
+        const bool by_little = beyond < max_excess && corrected < max_corrections;
+        if (by_little && problem_.correct(found, constraints_.peaks(found.controller),
+                                          RefinementProblem::Correction::more)) {
           ++corrected;
-          problem_.correct(found, constraints_.peaks(found.controller),
-                           RefinementProblem::Correction::more);
         } else {
           shorten();
         }
+        continue;
+      }
+      // Of the poles' bounds only the search knows.
+      if (result.feasible && found.missed > max_missed) {
+        shorten();
         continue;
       }
       // Where a peak exceeds its goal, excess() does not ask for stability.
@@ -85,7 +90,7 @@ class Refinement {
       objective = next;
       missed = excess;
       problem_.correct(found, constraints_.peaks(found.controller),
-                       RefinementProblem::Correction::again);
+                       RefinementProblem::Correction::afresh);
       problem_.move_to(found);
       radius = std::min(growth * radius, max_radius);
       result.controller = std::move(found.controller);

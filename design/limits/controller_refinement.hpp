@@ -10,12 +10,12 @@ namespace boresight::design {
 struct RefinementOptions {
   /// Steps of the search. Each takes about 0.6 s of computing with 31 plants and order 25.
   int steps = 24;
-  /// No pole of the controller exceeds them by more than the start's. What a slew leaves in slow
+  /// All poles keep these bounds, or the start's where it misses them. What a slew leaves in slow
   /// poles decays as slowly.
   PoleBounds poles = {};
   /// What costs too much to be asked at each step: how much of it a controller misses, 0 for
-  /// nothing. It is asked of the last step that meets every constraint, then of earlier ones,
-  /// further back each time, until one misses nothing; the result is the one that misses least.
+  /// nothing. It is asked of the last step that meets every constraint, then of those 1, 3, 6, 10
+  /// and 15 before it until one misses nothing; the result is the one of these that misses least.
   std::function<int(const plant::StateSpace&)> misses = {};
 };
 

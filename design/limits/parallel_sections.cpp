@@ -37,11 +37,11 @@ double damping_of(const Complex& place, double sample_time) {
   return -place.real() / std::abs(place) - 0.5 * sample_time * std::abs(place);
 }
 
-// The pair of that size with that damping.
+// The pair of that size with that damping, or of the largest size that has it.
 Complex damped(const Complex& place, double damping, double sample_time) {
-  const double size = std::abs(place);
+  const double size = std::min(std::abs(place), 2.0 * (0.999 - damping) / sample_time);
   const double real = size * (damping + 0.5 * sample_time * size);
-  return {-real, std::sqrt(std::max(0.0, size * size - real * real))};
+  return {-real, std::sqrt(size * size - real * real)};
 }
 
 }  // namespace
@@ -240,6 +240,7 @@ PoleBounds bounds_of(const plant::StateSpace& controller) {
   for (const Complex& pole : numerics::eigen_decomposition(controller.a).values) {
     const Complex place = (pole - 1.0) / controller.sample_time;
     bounds.slowest = std::min(bounds.slowest, -place.real());
+    if (std::abs(place.imag()) <= real_within * std::abs(place)) continue;
     bounds.damping = std::min(bounds.damping, damping_of(place, controller.sample_time));
   }
   return bounds;
@@ -259,7 +260,10 @@ plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
       place.real(-room * bounds.slowest);
       room += 0.1;
     }
-    if (damping_of(place, time) < bounds.damping) place = damped(place, bounds.damping, time);
+    // A little inside, as far as the conditions keep them.
+    if (place.imag() > 0.0 && damping_of(place, time) < bounds.damping) {
+      place = damped(place, 1.01 * bounds.damping, time);
+    }
     added.push_back(place);
   }
   plant::StateSpace result = from_sensors(controller);

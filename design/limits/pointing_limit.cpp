@@ -52,10 +52,8 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 // Of what |S| may exceed 1 by, the part that a refined controller uses: the members are some of the
 // plants that there may be, and 99 % of others meet the constraint then as well.
 constexpr double used_of_peak = 0.6;
-// Largest |S| at edges of the encoder. With 3, motion at rest grew until it reached the next edge.
-constexpr double edge_peak = 2.5;
-// No pole of a refined controller is slower: a slew would leave an error for minutes.
-// None is so little damped that it would fit a resonance of one plant.
+// Of a refined controller. A slower pole would leave an error for minutes after a slew; a sharper
+// one would fit a resonance of one plant.
 constexpr PoleBounds pole_bounds{.slowest = 0.1, .damping = 0.05};
 constexpr int steps_from_loops = 60;
 
@@ -90,7 +88,6 @@ class Study {
     refined_goals_ = goals_;
     refined_goals_.sensitivity_peak = 1.0 + used_of_peak * (goals_.sensitivity_peak - 1.0);
     refined_goals_.position_peak = goals.sensitivity_peak[2];
-    refined_goals_.edge_peak = edge_peak;
     if (!goals.standstill) return;
     stated_slopes_ = goals.standstill->friction.size();
     for (const Standstill::Edge& edge : goals.standstill->edges) {
@@ -161,7 +158,7 @@ class Study {
           options.misses = misses_;
           found = refine_controller(start, constraints, options);
           limit.refined_from = start_->name;
-          if (found->feasible) break;
+          if (found->feasible || at_edges_.empty()) break;
         }
       }
       if (!found) {

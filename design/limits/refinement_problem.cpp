@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <boresight/design/limits/refinement_problem.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
@@ -56,8 +57,8 @@ MatrixXd stacked(const Eigen::MatrixXcd& matrix) {
 }
 
 // At each frequency the Hermitian form of a change of the response to the sensors.
-ArrayXXcd quadratic_form(const SampledSpectrum& spectrum, double goal,
-                                const ArrayXXcd& controller, bool with_rms) {
+ArrayXXcd quadratic_form(const SampledSpectrum& spectrum, double goal, const ArrayXXcd& controller,
+                         bool with_rms) {
   // Of ln S, weighted where |S| is next to its goal.
   const Eigen::ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
   const ArrayXXcd factors =
@@ -77,8 +78,7 @@ ArrayXXcd quadratic_form(const SampledSpectrum& spectrum, double goal,
 }  // namespace
 
 RefinementProblem::RefinementProblem(const plant::StateSpace& start,
-                                     const RobustConstraints& constraints,
- const PoleBounds& bounds)
+                                     const RobustConstraints& constraints, const PoleBounds& bounds)
     : constraints_(constraints),
       sections_(start, bounds),
       frequency_(refinement_frequencies(constraints.plants().front().frequency())),
@@ -118,10 +118,12 @@ void RefinementProblem::move_to(const Step& step) {
   choose_directions();
 }
 
-void RefinementProblem::correct(const Step& step, const VectorXd& exact, Correction how) {
+bool RefinementProblem::correct(const Step& step, const VectorXd& exact, Correction how) {
   const VectorXd missed = (exact - step.peaks).cwiseMax(0.0).array() + peak_margin;
-  const double kept = how == Correction::again ? correction_fall : 1.0;
+  const bool rose = (missed.array() > corrections_.array()).any();
+  const double kept = how == Correction::afresh ? correction_fall : 1.0;
   corrections_ = (kept * corrections_).cwiseMax(missed);
+  return rose;
 }
 
 void RefinementProblem::choose_directions() {
@@ -175,8 +177,7 @@ std::vector<LoopFigures> RefinementProblem::figures(
 VectorXd RefinementProblem::peaks(std::span<const LoopFigures> figures) const {
   VectorXd result(corrections_.size());
   for (std::size_t i = 0; i < all(); ++i) {
-    result[static_cast<Index>(i)] =
-        figures[i].sensitivity_peak.logarithm - std::log(peak_goal(i));
+    result[static_cast<Index>(i)] = figures[i].sensitivity_peak.logarithm - std::log(peak_goal(i));
   }
   const SampledLoopGoals& goals = constraints_.goals();
   for (std::size_t i = 0; i < limited_positions_; ++i) {
@@ -195,8 +196,8 @@ MatrixXd RefinementProblem::by_parameters(const std::array<MatrixXd, sensors>& d
   for (Index sensor = 0; sensor < sensors; ++sensor) {
     Index column = 0;
     for (const LoopFigures& one : figures) {
-      for (const LoopFigure* figure : {&one.boresight_rms, &one.control_effort,
-                                       &one.sensitivity_peak, &one.position_peak}) {
+      for (const LoopFigure* figure :
+           {&one.boresight_rms, &one.control_effort, &one.sensitivity_peak, &one.position_peak}) {
         const auto gradient = figure->gradient.col(sensor);
         weights.col(column++) << gradient.real(), -gradient.imag();
       }
@@ -272,9 +273,8 @@ RefinementProblem::Step RefinementProblem::step(double radius) const {
   problem.lower.push_back(0.0);
   problem.upper.push_back(max_slack);
   problem.objectives = rated_;
-  problem.constraints = static_cast<std::size_t>(
-      corrections_.size() + static_cast<Index>(moving_) +
-      sections_.stability(centre_).conditions.size());
+  problem.constraints = static_cast<std::size_t>(corrections_.size() + static_cast<Index>(moving_) +
+                                                 sections_.stability(centre_).conditions.size());
   // The search's own record has only points that miss no constraint at all, and curved ones are
   // always missed by a little.
   Step result;

@@ -19,7 +19,8 @@ namespace boresight::design {
 /// exceed them by is set by correct().
 class RefinementProblem {
  public:
-  /// `bounds`: of ParallelSections. Refers to the constraints. The objective of `start` is 0.
+  /// `bounds`: of ParallelSections. Refers to the constraints. `start` is stable on all plants; its
+  /// objective is 0.
   /// @throws as ParallelSections.
   RefinementProblem(const plant::StateSpace& start, const RobustConstraints& constraints,
                     const PoleBounds& bounds);
@@ -40,10 +41,11 @@ class RefinementProblem {
 
   void move_to(const Step& step);
 
-  enum class Correction { again, more };
-  /// Takes the exact peaks of a step for what the frequencies miss from now on: again, or where
-  /// that is more than before.
-  void correct(const Step& step, const Eigen::VectorXd& exact, Correction how);
+  enum class Correction { afresh, more };
+  /// Takes the exact peaks of a step (RobustConstraints::peaks) for what the frequencies miss from
+  /// now on: where that is more than before, or afresh, which leaves 70 % of what is no longer
+  /// needed. Whether a correction rose.
+  bool correct(const Step& step, const Eigen::VectorXd& exact, Correction how);
 
   /// ln of the largest ratio of an rms (as RobustConstraints::rms) to that of the start: of the
   /// largest over the plants; at standstill of each to its own, with an allowance.
@@ -55,8 +57,9 @@ class RefinementProblem {
   void choose_directions();
   Eigen::MatrixXd curvature(const ParallelSections::Response& response) const;
   Eigen::VectorXd moved(const std::vector<double>& point) const;
-  Eigen::MatrixXd by_parameters(const std::array<Eigen::MatrixXd, 3>& derivatives,
-                                std::span<const LoopFigures> figures) const;
+  Eigen::MatrixXd by_parameters(
+      const std::array<Eigen::MatrixXd, ParallelSections::sensors>& derivatives,
+      std::span<const LoopFigures> figures) const;
   std::vector<LoopFigures> figures(const ParallelSections::Response& response) const;
   Eigen::VectorXd peaks(std::span<const LoopFigures> figures) const;
   void evaluate(const std::vector<double>& point, ConstrainedValues& values) const;
@@ -65,7 +68,7 @@ class RefinementProblem {
   ParallelSections sections_;
   Eigen::ArrayXd frequency_;
   Eigen::VectorXd centre_;
-  Eigen::MatrixXd directions_;  // columns: steps of the parameters of unit effect
+  Eigen::MatrixXd directions_;            // columns: steps of the parameters of unit effect
   std::vector<SampledSpectrum> spectra_;  // of the plants, at standstill, at edges
   std::size_t moving_ = 0, rated_ = 0;    // the plants; these and those at standstill
   std::size_t limited_positions_ = 0;     // whose position loop's peak is limited: rated_ or 0

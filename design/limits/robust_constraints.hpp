@@ -15,8 +15,9 @@ struct SampledLoopGoals {
   double control_effort = 0.6;    // rad/s rms of the noise-driven command
   /// Largest |S| at the valve command on the plants at standstill (Constraints::standstill).
   double standstill_peak = 3.0;
-  /// The same on the plants at standstill at an edge between two codes of the encoder.
-  double edge_peak = 3.0;
+  /// The same on the plants at standstill at an edge between two codes of the encoder. With 3,
+  /// motion at rest grew until it reached the next edge.
+  double edge_peak = 2.5;
   /// Largest |S| of the position loop, cut at the encoder alone, and at standstill standstill_peak.
   /// Not limited without.
   std::optional<double> position_peak = std::nullopt;
@@ -27,6 +28,7 @@ void validate(const SampledLoopGoals& goals);
 
 /// The goals over plants: every loop is stable and within them, those at standstill are stable with
 /// their own peak, and so are those at an edge of the encoder; the controller is stable by itself.
+/// A limit on the position loop's peak holds on the plants and at standstill.
 /// Refers to the plants; all have the same frequencies. Results do not depend on the number of
 /// threads.
 class RobustConstraints {

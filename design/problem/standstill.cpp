@@ -15,9 +15,9 @@ double encoder_step(const plant::Antenna& antenna) {
   return std::sqrt(12.0) * sky_to_motor(antenna, antenna.sensors.encoder_noise);
 }
 
-// rad/s
+// Hz
 double hydraulic_frequency(const plant::Antenna& antenna) {
-  return two_pi * plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
+  return plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
 }
 
 // Of an edge: amplitude by the encoder's step, frequencies by that of the hydraulic mode.
@@ -30,7 +30,7 @@ std::vector<double> standstill_friction(const plant::Antenna& antenna) {
   const double step = encoder_step(antenna);
   if (!(step > 0.0)) return {};
   constexpr double sixth = 1.0 / 6.0;
-  const double rate = 0.5 * step * sixth * hydraulic_frequency(antenna);
+  const double rate = 0.5 * step * sixth * two_pi * hydraulic_frequency(antenna);
   const double friction = plant::equivalent_friction(antenna.friction_curve, rate);
   std::vector<double> slopes;
   for (const double part : {sixth, 2.0 * sixth, 1.0}) {
@@ -42,7 +42,7 @@ std::vector<double> standstill_friction(const plant::Antenna& antenna) {
 std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna) {
   if (standstill_friction(antenna).empty()) return {};
   const double amplitude = edge_amplitude * encoder_step(antenna);
-  const double frequency = hydraulic_frequency(antenna);
+  const double frequency = two_pi * hydraulic_frequency(antenna);
   std::vector<Standstill::Edge> edges;
   for (const double part : edge_frequencies) {
     edges.push_back(

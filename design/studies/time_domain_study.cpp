@@ -5,10 +5,8 @@
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
-#include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
 
 namespace boresight::design {
@@ -174,8 +172,10 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
   section.options.second_integrator = second == SecondIntegrator::cvodes;
   section = verify(mission, problem, controller, std::move(section));
-  section.standstill = standstill_runs(
-      loop_of(mission, problem, controller, section.encoder_resolution), section.options);
+  if (second == SecondIntegrator::cvodes) {
+    section.limit_cycles_by_friction = design::limit_cycles_by_friction(
+        loop_of(mission, problem, controller, section.encoder_resolution), section.options);
+  }
   add_own_present(mission, problem, section);
   return section;
 }
@@ -233,7 +233,7 @@ TimeDomainStudy TimeDomainChoice::chosen(ChoiceDetail detail) {
     const SimulatedLoop loop =
         loop_of(mission_, problem_, controllers_[best].controller, chosen.encoder_resolution);
     explain_in_wind(problem_, loop, chosen.options, chosen.result);
-    chosen.standstill = standstill_runs(loop, chosen.options);
+    chosen.limit_cycles_by_friction = design::limit_cycles_by_friction(loop, chosen.options);
     add_own_present(mission_, problem_, chosen);
   }
   if (sections_.size() == 1) return chosen;
@@ -281,10 +281,10 @@ int limit_cycles_missed(const Mission& mission, const TrackingProblem& problem,
                             control::state_space_controller(
                                 "state space", control::antenna_state_space_controller(controller)),
                             section.encoder_resolution);
-  const auto runs = standstill_runs(loop, section.options);
+  const auto runs = limit_cycles_by_friction(loop, section.options);
   int all = 0, missed = 0;
-  for (const StandstillRuns& one : runs) all += one.starts;
-  for (const StandstillRuns& one : runs) {
+  for (const LimitCyclesWithFriction& one : runs) all += one.starts;
+  for (const LimitCyclesWithFriction& one : runs) {
     missed += one.friction == runs.front().friction ? all * one.limit_cycles : one.limit_cycles;
   }
   return missed;

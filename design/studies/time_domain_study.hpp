@@ -10,10 +10,10 @@
 
 #include <boresight/design/decisions/recommend.hpp>
 #include <boresight/design/problem/mission.hpp>
+#include <boresight/design/verification/limit_cycles_by_friction.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/design/verification/shared_winds.hpp>
 #include <boresight/design/verification/simulated_rms.hpp>
-#include <boresight/design/verification/standstill_runs.hpp>
 
 namespace boresight::design {
 
@@ -68,16 +68,15 @@ struct TimeDomainStudy {
   using Candidate = SimulatedCandidate;
   std::vector<Candidate> candidates;
 
-  /// Limit cycles with other friction (standstill_runs); empty of a controller that is only
-  /// compared.
-  std::vector<StandstillRuns> standstill;
+  /// Also with other friction; empty of a controller that is only compared.
+  std::vector<LimitCyclesWithFriction> limit_cycles_by_friction;
 
   /// This controller as a candidate.
   Candidate own() const { return {controller, result, rms}; }
 };
 
 /// Whether CVODES repeats the run in wind (integrator_agreement), which takes about as long as all
-/// other runs together.
+/// other runs together; limit_cycles_by_friction then runs too.
 enum class SecondIntegrator { none, cvodes };
 
 /// Detail of the results for the controller chosen among several: as for the others, or as
@@ -87,8 +86,8 @@ enum class ChoiceDetail { compared, verified };
 /// Simulates a controller on a problem made of the mission: 300 s of wind with each influence
 /// switched off in turn, limit cycles, slow reversals and a slew. The slew covers one degree at the
 /// mission's rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one).
-/// It also computes the rms with its interval by simulated_rms, and standstill_runs. Takes some 8 s
-/// of computing on the 70-m antenna, over `threads`, and 2 s for a second integrator. None without
+/// It also computes the rms with its interval by simulated_rms. Takes some 4 s of computing on the
+/// 70-m antenna, over `threads`, and 6 s more with a second integrator. None without
 /// Antenna::nonlinear. The result does not depend on the number of threads. @throws as
 /// verify_in_time.
 std::optional<TimeDomainStudy> verify_in_time_domain(
@@ -156,9 +155,10 @@ std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
     const control::Controller& controller, const NonlinearVerificationOptions& options);
 
-/// Runs of standstill_runs that end in a limit cycle; one with the friction as stated counts as
-/// many as all others together. 0: none. The problem is one of the mission, which must have
-/// Antenna::nonlinear. The result does not depend on the number of threads. @throws as run_loop.
+/// Runs of limit_cycles_by_friction that end in a limit cycle or do not complete; one with the
+/// friction as stated counts as many as all runs. 0: none. The problem is one of the mission, which
+/// must have Antenna::nonlinear. The result does not depend on the number of threads. @throws as
+/// run_loop.
 int limit_cycles_missed(const Mission& mission, const TrackingProblem& problem,
                         const plant::StateSpace& controller, unsigned threads);
 

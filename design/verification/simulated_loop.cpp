@@ -221,7 +221,7 @@ control::Feedforward feedforward_of(const SimulatedLoop& loop, std::span<const I
   control::Feedforward forward =
       control::plant_feedforward(plant, loop.controller, 1.5 * loop.sample_time);
   if (friction) {
-    plant::FrictionCurve curve = loop.antenna.friction.curve;
+    plant::FrictionCurve curve = loop.stated_friction.value_or(loop.antenna.friction.curve);
     curve.viscous_friction += loop.antenna.viscous_friction;
     forward = control::with_friction(forward, plant, curve, loop.friction_feedforward);
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,6 +38,8 @@ struct SimulatedLoop {
   /// Fraction of the antenna's friction torque that is fed forward. The rest is its mismatch:
   /// friction changes with the oil's temperature and with wear.
   double friction_feedforward = 0.8;
+  /// What the feedforward takes for the antenna's friction; the antenna's own if empty.
+  std::optional<plant::FrictionCurve> stated_friction = std::nullopt;
   bool anti_windup = true;
 };
 

@@ -179,7 +179,7 @@ TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
               ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
   EXPECT_THAT(
       constraints(one, none, {2.0, 0.0, 3.0}),
-      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill, 3 "
+      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill, 2.5 "
                                             "at an edge and 0 rad/s")));
 }
 

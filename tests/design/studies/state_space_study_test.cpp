@@ -29,7 +29,7 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   const TrackingProblem problem = tracking_problem(mission);
   const control::Controller loops = reference::lag_loops();
   const auto simulated =
-      verify_in_time_domain(mission, problem, loops, "LL+L", 1, 2, SecondIntegrator::none);
+      verify_in_time_domain(mission, problem, loops, "LL+L", 1, 2, SecondIntegrator::cvodes);
   ASSERT_TRUE(simulated);
   const auto study = study_state_space(mission, problem, limit_of(problem, loops), *simulated, 2);
   ASSERT_TRUE(study);
@@ -43,11 +43,11 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   ASSERT_TRUE(study->simulated.result.slew);
   EXPECT_EQ(study->limit_cycle_free,
             is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));
-  // Friction as stated comes first, at rest and tracking; each of its runs counts as all together.
-  ASSERT_EQ(simulated->standstill.size(), 10U);
+  // Friction as stated comes first, at rest and tracking; each of its runs counts as many as all.
+  ASSERT_EQ(simulated->limit_cycles_by_friction.size(), 10U);
   int all = 0, expected = 0;
-  for (const StandstillRuns& one : simulated->standstill) all += one.starts;
-  for (const StandstillRuns& one : simulated->standstill) {
+  for (const LimitCyclesWithFriction& one : simulated->limit_cycles_by_friction) all += one.starts;
+  for (const LimitCyclesWithFriction& one : simulated->limit_cycles_by_friction) {
     expected += one.friction == "as stated" ? all * one.limit_cycles : one.limit_cycles;
   }
   EXPECT_EQ(limit_cycles_missed(mission, problem, study->controller, 2), expected);

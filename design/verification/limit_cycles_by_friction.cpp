@@ -3,7 +3,7 @@
 #include <limits>
 
 #include <boresight/design/verification/limit_cycle_search.hpp>
-#include <boresight/design/verification/standstill_runs.hpp>
+#include <boresight/design/verification/limit_cycles_by_friction.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
@@ -33,28 +33,26 @@ std::vector<FrictionSet> friction_sets(const plant::MotorFriction& stated) {
   return sets;
 }
 
-std::vector<StandstillRuns> standstill_runs(const SimulatedLoop& loop,
-                                            const NonlinearVerificationOptions& options) {
+std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
+    const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
+  std::vector<double> rates{0.0};
+  if (options.tracking_rate != 0.0) rates.push_back(options.tracking_rate);
   std::vector<SimulatedLoop> loops;
-  std::vector<StandstillRuns> result;
+  std::vector<LimitCyclesWithFriction> result;
   for (const FrictionSet& set : friction_sets(loop.antenna.friction)) {
     loops.push_back(loop);
     loops.back().antenna.friction = set.friction;
-    for (const double rate : {0.0, options.tracking_rate}) {
-      if (rate != 0.0 || result.empty() || result.back().friction != set.name) {
-        result.push_back({set.name, rate});
-      }
-    }
+    loops.back().stated_friction = loop.antenna.friction.curve;
+    for (const double rate : rates) result.push_back({set.name, rate});
   }
-  const std::size_t rates = result.size() / loops.size();
   std::vector<LimitCycleResult> runs(result.size() * limit_cycle_starts);
   numerics::for_each_index(runs.size(), options.threads, [&](std::size_t i) {
     const std::size_t place = i / limit_cycle_starts;
-    runs[i] =
-        limit_cycle_run(loops[place / rates], options, result[place].rate, i % limit_cycle_starts);
+    runs[i] = limit_cycle_run(loops[place / rates.size()], options, result[place].rate,
+                              i % limit_cycle_starts);
   });
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    StandstillRuns& of = result[i / limit_cycle_starts];
+    LimitCyclesWithFriction& of = result[i / limit_cycle_starts];
     const bool complete = runs[i].status == RunStatus::complete;
     ++of.starts;
     if (!complete || runs[i].limit_cycle) ++of.limit_cycles;

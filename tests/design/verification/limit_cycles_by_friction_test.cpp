@@ -5,7 +5,7 @@
 
 #include "design/verification/demo_loop.hpp"
 #include <boresight/design/verification/limit_cycle_search.hpp>
-#include <boresight/design/verification/standstill_runs.hpp>
+#include <boresight/design/verification/limit_cycles_by_friction.hpp>
 
 namespace boresight::design {
 namespace {
@@ -57,12 +57,12 @@ TEST(FrictionSets, ChangeWhatTheirNamesSay) {
   EXPECT_EQ(friction_sets(smooth).size(), 1U);
 }
 
-TEST(StandstillRuns, CountTheLimitCyclesOfEachSetAndRate) {
+TEST(LimitCyclesByFriction, CountTheLimitCyclesOfEachSetAndRate) {
   const reference::DemoLoop demo;
   const SimulatedLoop loop = quantised(demo);
   const auto options = short_runs(demo, 2);
   ASSERT_NE(options.tracking_rate, 0.0);
-  const auto runs = standstill_runs(loop, options);
+  const auto runs = limit_cycles_by_friction(loop, options);
   ASSERT_EQ(runs.size(), 10U);
   const auto sets = friction_sets(loop.antenna.friction);
   int found = 0;
@@ -72,6 +72,10 @@ TEST(StandstillRuns, CountTheLimitCyclesOfEachSetAndRate) {
     EXPECT_EQ(runs[i].starts, static_cast<int>(limit_cycle_starts));
     SimulatedLoop other = loop;
     other.antenna.friction = sets[i / 2].friction;
+    // The antenna's computer does not know that.
+    other.stated_friction = loop.antenna.friction.curve;
+    EXPECT_EQ(feedforward_of(other).friction.coulomb_torque,
+              feedforward_of(loop).friction.coulomb_torque);
     int expected = 0;
     double largest = 0.0;
     for (std::size_t start = 0; start < limit_cycle_starts; ++start) {
@@ -85,7 +89,7 @@ TEST(StandstillRuns, CountTheLimitCyclesOfEachSetAndRate) {
   }
   // PI with integral action, friction and an encoder of steps: it does not come to rest.
   EXPECT_GT(found, 0);
-  const auto alone = standstill_runs(loop, short_runs(demo, 1));
+  const auto alone = limit_cycles_by_friction(loop, short_runs(demo, 1));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     EXPECT_EQ(alone[i].encoder_amplitude, runs[i].encoder_amplitude);
   }

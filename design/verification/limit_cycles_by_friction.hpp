@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string_view>
 #include <vector>
 
@@ -15,13 +14,13 @@ struct FrictionSet {
   plant::MotorFriction friction;
 };
 
-/// As stated; all torques of the curve x 0.7 and x 1.3; breakaway x 1.3 with half the Stribeck rate,
-/// the steepest fall; twice the Stribeck rate with bristles x 0.3, the softest. Without dry friction
-/// only the first.
+/// As stated; all torques of the curve x 0.7 and x 1.3; breakaway x 1.3 with half the Stribeck
+/// rate, the steepest fall; twice the Stribeck rate with bristles x 0.3, the softest. Without dry
+/// friction only the first.
 std::vector<FrictionSet> friction_sets(const plant::MotorFriction& stated);
 
 /// The runs of one set at one rate, without wind and noise, from each of limit_cycle_starts.
-struct StandstillRuns {
+struct LimitCyclesWithFriction {
   std::string_view friction;
   double rate = 0.0;  // rad/s at the sky
   int starts = 0;
@@ -33,7 +32,7 @@ struct StandstillRuns {
 /// at the options' tracking rate if it is not 0. Of each set first at rest. 30 runs, some 4 s of
 /// computing on the 70-m antenna, over options.threads; the result does not depend on them.
 /// @throws as run_loop.
-std::vector<StandstillRuns> standstill_runs(const SimulatedLoop& loop,
-                                            const NonlinearVerificationOptions& options);
+std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
+    const SimulatedLoop& loop, const NonlinearVerificationOptions& options);
 
 }  // namespace boresight::design

@@ -10,6 +10,7 @@
 #include <boresight/control/analysis/peak_gain.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
+#include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
@@ -226,6 +227,41 @@ TEST(PointingLimit, RefinesFromTheLoopsItIsGiven) {
   ASSERT_TRUE(again.refined && asked);
   EXPECT_EQ(again.refined->controller.b, asked->b);
   EXPECT_EQ(again.refined->controller.b, limit.refined->controller.b);
+}
+
+// Ms with a reserve for other plants, Ms of the position loop, and at edges of the encoder.
+TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
+  const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
+  const TrackingProblem problem = problem_with_torque_noise();
+  const DescribedController loops{"lags", reference::lag_loops()};
+  Constraints standing;
+  standing.standstill = Standstill{3.0, {100.0}, {{60.0, 2.0}, {120.0, 2.0}}};
+  const PointingLimit limit =
+      pointing_limit(problem, standing, members, {}, {.threads = 2, .start = loops});
+  ASSERT_TRUE(limit.refined);
+  const plant::StateSpace& controller = limit.refined->controller;
+  const auto filter = fit_wind_filter(problem);
+  const auto setting = [&](plant::AntennaPlant plant, double friction, double encoder_gain) {
+    plant.drive.viscous_friction = friction;
+    return SampledSetting("plant", plant, filter, problem.noise, limit.sample_time,
+                          plant::frequency_grid(plant, 1e-3, 24.9, 100), encoder_gain);
+  };
+  const auto expect_peaks = [&](const SampledSetting& one, double at_valve, double of_position) {
+    const auto response = SampledSetting::controller_response(controller, one.frequency());
+    EXPECT_LT(one.spectral_radius(controller), 1.0);
+    EXPECT_LE(one.highest_peak(response).magnitude, 1.002 * at_valve);
+    EXPECT_LE(one.highest_position_peak(response).magnitude, 1.002 * of_position);
+  };
+  const double friction = problem.plant.drive.viscous_friction;
+  expect_peaks(setting(problem.plant, friction, 1.0), 1.6, 2.0);
+  expect_peaks(setting(members.front().plant, friction, 1.0), 1.6, 2.0);
+  expect_peaks(setting(problem.plant, 100.0, 1.0), 3.0, 3.0);
+  for (const Standstill::Edge& edge : standing.standstill->edges) {
+    expect_peaks(setting(problem.plant, edge.friction, edge.encoder_gain), 2.5, HUGE_VAL);
+  }
+  const PoleBounds poles = bounds_of(controller);
+  EXPECT_GT(poles.slowest, 0.098);
+  EXPECT_GT(poles.damping, 0.048);
 }
 
 // Friction slopes of the constraint, and larger ones up to ten times.

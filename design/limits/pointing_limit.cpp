@@ -50,7 +50,7 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 }
 
 // Of what |S| may exceed 1 by, the part that a refined controller uses: the members are some of the
-// plants that there may be, and 99 % of others meet the constraint then as well.
+// plants that there may be, and some 98 % of others meet the constraint then as well.
 constexpr double used_of_peak = 0.6;
 // Of a refined controller. A slower pole would leave an error for minutes after a slew; a sharper
 // one would fit a resonance of one plant.

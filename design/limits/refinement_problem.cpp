@@ -82,7 +82,10 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
     : constraints_(constraints),
       sections_(start, bounds),
       frequency_(refinement_frequencies(constraints.plants().front().frequency())),
-      centre_(sections_.parameters()) {
+      centre_(sections_.parameters()),
+      moving_(constraints.plants().size()),
+      rated_(moving_ + constraints.at_standstill().size()),
+      limited_positions_(constraints.goals().position_peak ? rated_ : 0) {
   std::vector<const SampledSetting*> settings;
   for (const auto group :
        {constraints.plants(), constraints.at_standstill(), constraints.at_edges()}) {
@@ -92,9 +95,6 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
   numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
     spectra_[i] = sampled_spectrum(*settings[i], frequency_);
   });
-  moving_ = constraints.plants().size();
-  rated_ = moving_ + constraints.at_standstill().size();
-  limited_positions_ = constraints.goals().position_peak ? rated_ : 0;
   corrections_.setConstant(static_cast<Index>(all() + limited_positions_), peak_margin);
   references_ = constraints.rms(start).array().log();
   const auto moving = static_cast<Index>(moving_);

@@ -70,8 +70,8 @@ class RefinementProblem {
   Eigen::VectorXd centre_;
   Eigen::MatrixXd directions_;            // columns: steps of the parameters of unit effect
   std::vector<SampledSpectrum> spectra_;  // of the plants, at standstill, at edges
-  std::size_t moving_ = 0, rated_ = 0;    // the plants; these and those at standstill
-  std::size_t limited_positions_ = 0;     // whose position loop's peak is limited: rated_ or 0
+  std::size_t moving_, rated_;            // the plants; these and those at standstill
+  std::size_t limited_positions_;         // whose position loop's peak is limited: rated_ or 0
   Eigen::VectorXd references_;            // ln of the rms of the start, of those rated
   Eigen::VectorXd corrections_;           // ln, of the peaks
 };

@@ -137,14 +137,13 @@ Document limit_cycle_part(const TimeDomainSection& section) {
   return text;
 }
 
-// The same with other friction than stated, whose runs stand above.
+// Limit cycles with friction variations.
 Document other_friction_part(const TimeDomainSection& section) {
   int all = 0;
   double largest = 0.0;
   std::vector<std::string> found;
   std::vector<std::string_view> with, without;
   for (const design::LimitCyclesWithFriction& one : section.limit_cycles_by_friction) {
-    if (one.friction == section.limit_cycles_by_friction.front().friction) continue;
     all += one.starts;
     largest = std::max(largest, one.encoder_amplitude);
     if (without.empty() || without.back() != one.friction) without.push_back(one.friction);

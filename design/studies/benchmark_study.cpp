@@ -111,7 +111,7 @@ BenchmarkStudy study_rejection(const Mission& mission, const std::vector<Ensembl
   } else {
     study.nonlinear = verify_in_time_domain(mission, problem, *study.controller.controller,
                                             study.controller.description, options.seed,
-                                            options.threads, SecondIntegrator::none);
+                                            options.threads, FurtherRuns::none);
     study.simulated_budget_speeds = budget_speeds(problem, *study.controller.controller,
                                                   study.budgets, study.nonlinear->own().effect());
   }

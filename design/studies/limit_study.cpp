@@ -6,6 +6,7 @@
 #include <boresight/design/studies/time_domain_study.hpp>
 
 namespace boresight::design {
+
 PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& section,
                                 const PlantEnsemble& ensemble, double wind_speed,
                                 unsigned threads) {
@@ -24,8 +25,8 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
     options.start = {description_of(*recommended), recommended->design.tuning.controller};
   }
   if (mission.antenna.nonlinear) {
-    options.misses = [&](const plant::StateSpace& controller) {
-      return limit_cycles_missed(mission, problem, controller, threads);
+    options.violations = [&](const plant::StateSpace& controller) {
+      return limit_cycle_violations(mission, problem, controller, threads);
     };
   }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);

@@ -254,8 +254,7 @@ std::optional<TimeDomainStudy> time_domain_of(const Mission& mission, Controller
   auto problem = tracking_problem(mission);
   problem.wind.mean_speed = best.wind_speed;
   return verify_in_time_domain(mission, problem, best.design.tuning.controller,
-                               description_of(best), task.seed, task.threads,
-                               SecondIntegrator::cvodes);
+                               description_of(best), task.seed, task.threads, FurtherRuns::all);
 }
 
 }  // namespace

@@ -94,6 +94,11 @@ TimeDomainStudy verify(const Mission& mission, const TrackingProblem& problem,
   return section;
 }
 
+std::vector<LimitCyclesWithFriction> with_other_friction(
+    const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
+  return limit_cycles_by_friction(loop, friction_variations(loop.antenna.friction), options);
+}
+
 // Controllers are first compared in few records of wind. Those that are tied with the best, or
 // within a tenth of it, are then run in all records.
 constexpr int first_records = 4;
@@ -167,13 +172,13 @@ Assessment assessment_of(const NamedController& controller, const NonlinearVerif
 
 std::optional<TimeDomainStudy> verify_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
-    std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second) {
+    std::string_view description, std::uint64_t seed, unsigned threads, FurtherRuns further) {
   if (!mission.antenna.nonlinear) return std::nullopt;
   TimeDomainStudy section = plan(mission, problem, description, seed, threads);
-  section.options.second_integrator = second == SecondIntegrator::cvodes;
+  section.options.second_integrator = further == FurtherRuns::all;
   section = verify(mission, problem, controller, std::move(section));
-  if (second == SecondIntegrator::cvodes) {
-    section.limit_cycles_by_friction = design::limit_cycles_by_friction(
+  if (further == FurtherRuns::all) {
+    section.limit_cycles_by_friction = with_other_friction(
         loop_of(mission, problem, controller, section.encoder_resolution), section.options);
   }
   add_own_present(mission, problem, section);
@@ -233,7 +238,7 @@ TimeDomainStudy TimeDomainChoice::chosen(ChoiceDetail detail) {
     const SimulatedLoop loop =
         loop_of(mission_, problem_, controllers_[best].controller, chosen.encoder_resolution);
     explain_in_wind(problem_, loop, chosen.options, chosen.result);
-    chosen.limit_cycles_by_friction = design::limit_cycles_by_friction(loop, chosen.options);
+    chosen.limit_cycles_by_friction = with_other_friction(loop, chosen.options);
     add_own_present(mission_, problem_, chosen);
   }
   if (sections_.size() == 1) return chosen;
@@ -274,20 +279,23 @@ std::optional<TimeDomainStudy::Candidate> compare_in_time_domain(
   return compare_in_time_domain(mission, problem, controller.name, controller.controller, options);
 }
 
-int limit_cycles_missed(const Mission& mission, const TrackingProblem& problem,
-                        const plant::StateSpace& controller, unsigned threads) {
+int limit_cycle_violations(const Mission& mission, const TrackingProblem& problem,
+                           const plant::StateSpace& controller, unsigned threads) {
   const TimeDomainStudy section = plan(mission, problem, "", 1, threads);
   const auto loop = loop_of(mission, problem,
                             control::state_space_controller(
                                 "state space", control::antenna_state_space_controller(controller)),
                             section.encoder_resolution);
-  const auto runs = limit_cycles_by_friction(loop, section.options);
-  int all = 0, missed = 0;
+  constexpr std::string_view stated = "as stated";
+  std::vector<FrictionVariation> frictions = friction_variations(loop.antenna.friction);
+  frictions.push_back({stated, loop.antenna.friction});
+  const auto runs = limit_cycles_by_friction(loop, frictions, section.options);
+  int all = 0, violations = 0;
   for (const LimitCyclesWithFriction& one : runs) all += one.starts;
   for (const LimitCyclesWithFriction& one : runs) {
-    missed += one.friction == runs.front().friction ? all * one.limit_cycles : one.limit_cycles;
+    violations += one.friction == stated ? all * one.limit_cycles : one.limit_cycles;
   }
-  return missed;
+  return violations;
 }
 
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

@@ -68,31 +68,32 @@ struct TimeDomainStudy {
   using Candidate = SimulatedCandidate;
   std::vector<Candidate> candidates;
 
-  /// Also with other friction; empty of a controller that is only compared.
+  /// With friction_variations; empty for a controller that is only compared.
   std::vector<LimitCyclesWithFriction> limit_cycles_by_friction;
 
   /// This controller as a candidate.
   Candidate own() const { return {controller, result, rms}; }
 };
 
-/// Whether CVODES repeats the run in wind (integrator_agreement), which takes about as long as all
-/// other runs together; limit_cycles_by_friction then runs too.
-enum class SecondIntegrator { none, cvodes };
+/// Runs beyond those that compare controllers: CVODES repeats the run in wind
+/// (integrator_agreement), about as long as all other runs together, and limit_cycles_by_friction
+/// with friction_variations.
+enum class FurtherRuns { none, all };
 
 /// Detail of the results for the controller chosen among several: as for the others, or as
-/// verify_in_time_domain with a second integrator, for a report.
+/// verify_in_time_domain with all further runs, for a report.
 enum class ChoiceDetail { compared, verified };
 
 /// Simulates a controller on a problem made of the mission: 300 s of wind with each influence
 /// switched off in turn, limit cycles, slow reversals and a slew. The slew covers one degree at the
 /// mission's rate and 0.2 deg/s2, settled within the tightest pointing budget (1 mdeg without one).
 /// It also computes the rms with its interval by simulated_rms. Takes some 4 s of computing on the
-/// 70-m antenna, over `threads`, and 6 s more with a second integrator. None without
+/// 70-m antenna, over `threads`, and 6 s more for the further runs. None without
 /// Antenna::nonlinear. The result does not depend on the number of threads. @throws as
 /// verify_in_time.
 std::optional<TimeDomainStudy> verify_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, const control::Controller& controller,
-    std::string_view description, std::uint64_t seed, unsigned threads, SecondIntegrator second);
+    std::string_view description, std::uint64_t seed, unsigned threads, FurtherRuns further);
 
 /// Simulates a controller in the wind record of the study's result, as its `present`. The problem
 /// is that of the study. @throws as verify_in_time.
@@ -155,12 +156,12 @@ std::optional<SimulatedCandidate> compare_in_time_domain(
     const Mission& mission, const TrackingProblem& problem, std::string name,
     const control::Controller& controller, const NonlinearVerificationOptions& options);
 
-/// Runs of limit_cycles_by_friction that end in a limit cycle or do not complete; one with the
-/// friction as stated counts as many as all runs. 0: none. The problem is one of the mission, which
-/// must have Antenna::nonlinear. The result does not depend on the number of threads. @throws as
-/// run_loop.
-int limit_cycles_missed(const Mission& mission, const TrackingProblem& problem,
-                        const plant::StateSpace& controller, unsigned threads);
+/// Number of runs of limit_cycles_by_friction that end in a limit cycle or do not complete, with
+/// the stated friction and with friction_variations. A run with the stated friction counts as many
+/// times as there are runs. The problem is one of the mission, which must have Antenna::nonlinear.
+/// The result does not depend on the number of threads. @throws as run_loop.
+int limit_cycle_violations(const Mission& mission, const TrackingProblem& problem,
+                           const plant::StateSpace& controller, unsigned threads);
 
 /// The controller's nonlinear effect in the mission's wind; no effect without Antenna::nonlinear.
 NonlinearEffect simulated_effect(const Mission& mission, const control::Controller& controller,

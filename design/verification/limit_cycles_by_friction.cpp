@@ -17,33 +17,35 @@ void scale_torques(plant::FrictionCurve& curve, double factor) {
 
 }  // namespace
 
-std::vector<FrictionSet> friction_sets(const plant::MotorFriction& stated) {
-  std::vector<FrictionSet> sets{{"as stated", stated}};
-  if (!(plant::dry_friction(stated.curve, 0.0).value > 0.0)) return sets;
-  sets.push_back({"torques x 0.7", stated});
-  scale_torques(sets.back().friction.curve, 0.7);
-  sets.push_back({"torques x 1.3", stated});
-  scale_torques(sets.back().friction.curve, 1.3);
-  sets.push_back({"breakaway x 1.3, Stribeck rate x 0.5", stated});
-  sets.back().friction.curve.breakaway_torque *= 1.3;
-  sets.back().friction.curve.stribeck_rate *= 0.5;
-  sets.push_back({"Stribeck rate x 2, bristles x 0.3", stated});
-  sets.back().friction.curve.stribeck_rate *= 2.0;
-  sets.back().friction.bristle_stiffness *= 0.3;
-  return sets;
+std::vector<FrictionVariation> friction_variations(const plant::MotorFriction& stated) {
+  if (!(plant::dry_friction(stated.curve, 0.0).value > 0.0)) return {};
+  std::vector<FrictionVariation> variations{
+      {"friction torques x 0.7", stated},
+      {"friction torques x 1.3", stated},
+      {"breakaway torque x 1.3, Stribeck rate x 0.5", stated},
+      {"Stribeck rate x 2, bristle stiffness x 0.3", stated},
+  };
+  scale_torques(variations[0].friction.curve, 0.7);
+  scale_torques(variations[1].friction.curve, 1.3);
+  variations[2].friction.curve.breakaway_torque *= 1.3;
+  variations[2].friction.curve.stribeck_rate *= 0.5;
+  variations[3].friction.curve.stribeck_rate *= 2.0;
+  variations[3].friction.bristle_stiffness *= 0.3;
+  return variations;
 }
 
 std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
-    const SimulatedLoop& loop, const NonlinearVerificationOptions& options) {
+    const SimulatedLoop& loop, std::span<const FrictionVariation> frictions,
+    const NonlinearVerificationOptions& options) {
   std::vector<double> rates{0.0};
   if (options.tracking_rate != 0.0) rates.push_back(options.tracking_rate);
   std::vector<SimulatedLoop> loops;
   std::vector<LimitCyclesWithFriction> result;
-  for (const FrictionSet& set : friction_sets(loop.antenna.friction)) {
+  for (const FrictionVariation& one : frictions) {
     loops.push_back(loop);
-    loops.back().antenna.friction = set.friction;
-    loops.back().stated_friction = loop.antenna.friction.curve;
-    for (const double rate : rates) result.push_back({set.name, rate});
+    loops.back().antenna.friction = one.friction;
+    loops.back().stated_friction = loop.stated_friction.value_or(loop.antenna.friction.curve);
+    for (const double rate : rates) result.push_back({one.name, rate});
   }
   std::vector<LimitCycleResult> runs(result.size() * limit_cycle_starts);
   numerics::for_each_index(runs.size(), options.threads, [&](std::size_t i) {

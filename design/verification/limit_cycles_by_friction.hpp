@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -7,32 +8,33 @@
 
 namespace boresight::design {
 
-/// Friction that the antenna may have instead of what the model states: it changes with the oil's
-/// temperature, with load and with wear.
-struct FrictionSet {
-  std::string_view name;
+/// Friction that differs from what the model states, as it changes with oil temperature, load and
+/// wear.
+struct FrictionVariation {
+  std::string_view name;  // what differs
   plant::MotorFriction friction;
 };
 
-/// As stated; all torques of the curve x 0.7 and x 1.3; breakaway x 1.3 with half the Stribeck
-/// rate, the steepest fall; twice the Stribeck rate with bristles x 0.3, the softest. Without dry
-/// friction only the first.
-std::vector<FrictionSet> friction_sets(const plant::MotorFriction& stated);
+/// Four variations: all friction torques x 0.7; x 1.3; breakaway torque x 1.3 with half the
+/// Stribeck rate, the steepest fall; twice the Stribeck rate with bristle stiffness x 0.3, the
+/// softest. None without dry friction.
+std::vector<FrictionVariation> friction_variations(const plant::MotorFriction& stated);
 
-/// The runs of one set at one rate, without wind and noise, from each of limit_cycle_starts.
+/// Runs with one friction at one rate, without wind and noise, from each of limit_cycle_starts.
 struct LimitCyclesWithFriction {
-  std::string_view friction;
-  double rate = 0.0;  // rad/s at the sky
+  std::string_view friction;  // FrictionVariation::name
+  double rate = 0.0;          // rad/s at the sky
   int starts = 0;
-  int limit_cycles = 0;            // runs that end in one, or that did not complete
+  int limit_cycles = 0;            // runs that end in a limit cycle or do not complete
   double encoder_amplitude = 0.0;  // rad at the sky, the largest; NaN if a run did not complete
 };
 
-/// The search for limit cycles (limit_cycle_run, not confirmed) over all friction sets, at rest and
-/// at the options' tracking rate if it is not 0. Of each set first at rest. 30 runs, some 4 s of
-/// computing on the 70-m antenna, over options.threads; the result does not depend on them.
-/// @throws as run_loop.
+/// Searches for limit cycles (limit_cycle_run, not confirmed by longer runs) with each friction, at
+/// rest and then at the options' tracking rate if that is not 0. The loop's feedforward keeps the
+/// friction of `loop`. Each friction takes 6 runs, some 0.8 s of computing on the 70-m antenna,
+/// over options.threads; the result does not depend on them. @throws as run_loop.
 std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
-    const SimulatedLoop& loop, const NonlinearVerificationOptions& options);
+    const SimulatedLoop& loop, std::span<const FrictionVariation> frictions,
+    const NonlinearVerificationOptions& options);
 
 }  // namespace boresight::design

@@ -97,19 +97,18 @@ void describe_limit_cycles(Visitor& v, const std::vector<design::LimitCycleResul
 }
 
 void describe_other_friction(Visitor& v, const std::vector<design::LimitCyclesWithFriction>& runs) {
-  v.list(
-      "limit_cycles_by_friction", runs,
-      "Limit cycles with the friction as stated and with other friction, without wind and noise, "
-      "not confirmed by longer runs: each friction at rest, then at the tracking rate.",
-      [&](const design::LimitCyclesWithFriction& one) {
-        v.text("friction", one.friction, "As stated, or what of it is changed.");
-        v.number("rate", one.rate, unit::millidegree_per_second, "Of the command.", known);
-        v.count("starts", one.starts, "Runs, each from another initial step.");
-        v.count("starts_with_limit_cycle", one.limit_cycles,
-                "Of these runs, that end in one or did not complete.");
-        v.number("encoder_amplitude", one.encoder_amplitude, unit::millidegree,
-                 "Half of peak to peak, the largest; null if a run did not complete.", positive);
-      });
+  v.list("limit_cycles_by_friction", runs,
+         "Limit cycles with friction that differs from what is stated, without wind and noise, "
+         "not confirmed by longer runs: each friction at rest, then at the tracking rate.",
+         [&](const design::LimitCyclesWithFriction& one) {
+           v.text("friction", one.friction, "What differs.");
+           v.number("rate", one.rate, unit::millidegree_per_second, "Of the command.", known);
+           v.count("starts", one.starts, "Runs, each from another initial step.");
+           v.count("starts_with_limit_cycle", one.limit_cycles,
+                   "Of these runs, that end in one or did not complete.");
+           v.number("encoder_amplitude", one.encoder_amplitude, unit::millidegree,
+                    "Half of peak to peak, the largest; null if a run did not complete.", positive);
+         });
 }
 
 void describe_reversal(Visitor& v, const std::optional<design::ReversalResult>& reversal) {

@@ -480,7 +480,7 @@ TEST(TimeDomain, NoneOfACaseThatSaysNothingOfItsDrive) {
                                        {0.2, 0.8, 6.0, 0.2, 0.02}};
   const design::Mission mission = mission_of(antenna);
   EXPECT_FALSE(verify_in_time_domain(mission, tracking_problem(mission), controller, "PI", 1, 1,
-                                     design::SecondIntegrator::none));
+                                     design::FurtherRuns::none));
 }
 
 // The gains in force are compared by the same records of wind as the recommended ones.
@@ -490,7 +490,7 @@ TEST(TimeDomain, SimulatesTheMissionsOwnGainsInAllRecords) {
                                        {0.2, 0.8, 6.0, 0.2, 0.02}};
   mission.present_controllers = {{"PI", controller}};
   const auto study = verify_in_time_domain(mission, tracking_problem(mission), controller, "PI", 1,
-                                           2, design::SecondIntegrator::none);
+                                           2, design::FurtherRuns::none);
   ASSERT_TRUE(study && study->present && study->rms);
   ASSERT_TRUE(study->present->simulated_rms);
   EXPECT_NEAR(*study->present->simulated_rms, study->rms->rms.value, 1e-12 * study->rms->rms.value);

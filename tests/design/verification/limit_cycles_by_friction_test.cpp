@@ -25,22 +25,21 @@ SimulatedLoop quantised(const reference::DemoLoop& demo) {
   return loop;
 }
 
-TEST(FrictionSets, ChangeWhatTheirNamesSay) {
+TEST(FrictionVariations, ChangeWhatTheirNamesSay) {
   plant::MotorFriction stated;
   stated.curve = {10.0, 17.0, 0.15, 60.0, 1.5, 2.0};
   stated.bristle_stiffness = 2500.0;
-  const auto sets = friction_sets(stated);
-  ASSERT_EQ(sets.size(), 5U);
-  EXPECT_EQ(sets[0].friction.curve.coulomb_torque, stated.curve.coulomb_torque);
+  const auto variations = friction_variations(stated);
+  ASSERT_EQ(variations.size(), 4U);
   const auto dry = [](const plant::MotorFriction& friction, double rate) {
     return plant::dry_friction(friction.curve, rate).value;
   };
   for (const double rate : {0.0, 0.05, 1.0, 20.0}) {
-    EXPECT_NEAR(dry(sets[1].friction, rate), 0.7 * dry(stated, rate), 1e-12);
-    EXPECT_NEAR(dry(sets[2].friction, rate), 1.3 * dry(stated, rate), 1e-12);
+    EXPECT_NEAR(dry(variations[0].friction, rate), 0.7 * dry(stated, rate), 1e-12);
+    EXPECT_NEAR(dry(variations[1].friction, rate), 1.3 * dry(stated, rate), 1e-12);
   }
-  EXPECT_NEAR(dry(sets[3].friction, 0.0), 1.3 * dry(stated, 0.0), 1e-12);
-  // The steepest fall of exp(-(w/ws)^2) goes with the height over ws.
+  EXPECT_NEAR(dry(variations[2].friction, 0.0), 1.3 * dry(stated, 0.0), 1e-12);
+  // The steepest fall of exp(-(w/ws)^2) scales with the height over ws.
   const auto steepest = [&](const plant::MotorFriction& friction) {
     double least = 0.0;
     for (double rate = 1e-3; rate < 1.0; rate += 1e-3) {
@@ -48,31 +47,31 @@ TEST(FrictionSets, ChangeWhatTheirNamesSay) {
     }
     return least;
   };
-  EXPECT_LT(steepest(sets[3].friction), 2.0 * steepest(stated));
   EXPECT_LT(steepest(stated), 0.0);
-  EXPECT_GT(steepest(sets[4].friction), steepest(stated));
-  EXPECT_EQ(sets[4].friction.bristle_stiffness, 0.3 * stated.bristle_stiffness);
+  EXPECT_LT(steepest(variations[2].friction), 2.0 * steepest(stated));
+  EXPECT_GT(steepest(variations[3].friction), steepest(stated));
+  EXPECT_EQ(variations[3].friction.bristle_stiffness, 0.3 * stated.bristle_stiffness);
   plant::MotorFriction smooth = stated;
   smooth.curve = {};
-  EXPECT_EQ(friction_sets(smooth).size(), 1U);
+  EXPECT_TRUE(friction_variations(smooth).empty());
 }
 
-TEST(LimitCyclesByFriction, CountTheLimitCyclesOfEachSetAndRate) {
+TEST(LimitCyclesByFriction, CountTheLimitCyclesOfEachFrictionAndRate) {
   const reference::DemoLoop demo;
   const SimulatedLoop loop = quantised(demo);
   const auto options = short_runs(demo, 2);
   ASSERT_NE(options.tracking_rate, 0.0);
-  const auto runs = limit_cycles_by_friction(loop, options);
-  ASSERT_EQ(runs.size(), 10U);
-  const auto sets = friction_sets(loop.antenna.friction);
+  const auto variations = friction_variations(loop.antenna.friction);
+  const auto runs = limit_cycles_by_friction(loop, variations, options);
+  ASSERT_EQ(runs.size(), 2 * variations.size());
   int found = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    EXPECT_EQ(runs[i].friction, sets[i / 2].name);
+    EXPECT_EQ(runs[i].friction, variations[i / 2].name);
     EXPECT_EQ(runs[i].rate, i % 2 == 0 ? 0.0 : options.tracking_rate);
     EXPECT_EQ(runs[i].starts, static_cast<int>(limit_cycle_starts));
     SimulatedLoop other = loop;
-    other.antenna.friction = sets[i / 2].friction;
-    // The antenna's computer does not know that.
+    other.antenna.friction = variations[i / 2].friction;
+    // The controller keeps the feedforward of the stated friction.
     other.stated_friction = loop.antenna.friction.curve;
     EXPECT_EQ(feedforward_of(other).friction.coulomb_torque,
               feedforward_of(loop).friction.coulomb_torque);
@@ -87,12 +86,13 @@ TEST(LimitCyclesByFriction, CountTheLimitCyclesOfEachSetAndRate) {
     EXPECT_EQ(runs[i].encoder_amplitude, largest);
     found += expected;
   }
-  // PI with integral action, friction and an encoder of steps: it does not come to rest.
+  // PI with integral action, friction and encoder steps does not come to rest.
   EXPECT_GT(found, 0);
-  const auto alone = limit_cycles_by_friction(loop, short_runs(demo, 1));
+  const auto alone = limit_cycles_by_friction(loop, variations, short_runs(demo, 1));
   for (std::size_t i = 0; i < runs.size(); ++i) {
     EXPECT_EQ(alone[i].encoder_amplitude, runs[i].encoder_amplitude);
   }
+  EXPECT_TRUE(limit_cycles_by_friction(loop, {}, options).empty());
 }
 
 }  // namespace

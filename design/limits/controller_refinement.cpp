@@ -12,16 +12,16 @@
 namespace boresight::design {
 namespace {
 
-// Of ln: a step that misses a constraint by less is tried again with what the frequencies of the
-// search did not show; one that misses it by more was too long.
+// Logarithmic. A step that exceeds a constraint by less is repeated with corrected peaks; one that
+// exceeds it by more was too long.
 constexpr double max_excess = 0.02;
-// So many times in a row.
+// Repetitions in a row.
 constexpr int max_corrections = 2;
-// Of ln: what a step may miss of the search's own constraints, which keep something in hand.
+// Logarithmic: largest violation of the search's own constraints in an accepted step.
 constexpr double max_missed = 0.01;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5, growth = 2.0;
-// Steps that RefinementOptions::misses is asked of.
-constexpr int max_asked = 6;
+// Steps at which RefinementOptions::violations is evaluated.
+constexpr int max_evaluated = 6;
 constexpr double worthwhile = 1e-4;
 
 PoleBounds attainable(const PoleBounds& bounds, const plant::StateSpace& start) {
@@ -55,32 +55,32 @@ class Refinement {
         shorten();
         continue;
       }
-      const double excess = constraints_.excess(found.controller);
-      // On the way to where all constraints are met, half of what the search shows is enough.
+      const Eigen::VectorXd peaks = constraints_.peaks(found.controller);
+      const double excess = constraints_.excess(found.controller, peaks);
+      // From an infeasible start, half of the predicted reduction is accepted.
       const double beyond = excess - (result.feasible ? 0.0 : 0.5 * (missed + found.missed));
       if (beyond > 0.0) {
         const bool by_little = beyond < max_excess && corrected < max_corrections;
-        if (by_little && problem_.correct(found, constraints_.peaks(found.controller),
-                                          RefinementProblem::Correction::more)) {
+        if (by_little && problem_.correct(found, peaks, RefinementProblem::Correction::more)) {
           ++corrected;
         } else {
           shorten();
         }
         continue;
       }
-      // Of the poles' bounds only the search knows.
+      // RobustConstraints does not include the bounds of the poles.
       if (result.feasible && found.missed > max_missed) {
         shorten();
         continue;
       }
-      // Where a peak exceeds its goal, excess() does not ask for stability.
+      // excess() does not test stability where a peak exceeds its goal.
       if (excess > 0.0 && !constraints_.stable(found.controller)) {
         shorten();
         continue;
       }
       const bool feasible = !(excess > 0.0);
       const Eigen::VectorXd rms = constraints_.rms(found.controller);
-      // What the frequencies of the search show may be no more than their error.
+      // By exact rms: a gain on the search's frequencies may be within their error.
       const double next = problem_.objective(rms);
       if (result.feasible && !(next < objective)) {
         shorten();
@@ -89,8 +89,7 @@ class Refinement {
       corrected = 0;
       objective = next;
       missed = excess;
-      problem_.correct(found, constraints_.peaks(found.controller),
-                       RefinementProblem::Correction::afresh);
+      problem_.correct(found, peaks, RefinementProblem::Correction::afresh);
       problem_.move_to(found);
       radius = std::min(growth * radius, max_radius);
       result.controller = std::move(found.controller);
@@ -98,23 +97,24 @@ class Refinement {
           rms.head(static_cast<Eigen::Index>(constraints_.plants().size())).maxCoeff();
       result.feasible = feasible;
       ++result.steps;
-      if (options_.misses && feasible) path.push_back(result);
+      if (options_.violations && feasible) path.push_back(result);
     }
-    return least_missing(std::move(result), std::move(path));
+    return fewest_violations(std::move(result), std::move(path));
   }
 
  private:
-  RefinementResult least_missing(RefinementResult found, std::vector<RefinementResult> path) const {
+  RefinementResult fewest_violations(RefinementResult found,
+                                     std::vector<RefinementResult> path) const {
     int least = std::numeric_limits<int>::max();
     std::size_t best = path.size(), back = 1;
-    for (int asked = 0; asked < max_asked && back <= path.size() && least > 0; ++asked) {
+    for (int i = 0; i < max_evaluated && back <= path.size() && least > 0; ++i) {
       const std::size_t place = path.size() - back;
-      const int missed = options_.misses(path[place].controller);
-      if (missed < least) {
-        least = missed;
+      const int violations = options_.violations(path[place].controller);
+      if (violations < least) {
+        least = violations;
         best = place;
       }
-      back += static_cast<std::size_t>(1 + asked);
+      back += static_cast<std::size_t>(1 + i);
     }
     if (best == path.size()) return found;
     path[best].evaluations = found.evaluations;

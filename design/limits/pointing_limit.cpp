@@ -49,11 +49,11 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
   return slopes;
 }
 
-// Of what |S| may exceed 1 by, the part that a refined controller uses: the members are some of the
-// plants that there may be, and some 98 % of others meet the constraint then as well.
+// Fraction of the allowed Ms - 1 that the design uses. The rest is a reserve for plants other than
+// the members: some 98 % of sampled plants then meet the constraint.
 constexpr double used_of_peak = 0.6;
-// Of a refined controller. A slower pole would leave an error for minutes after a slew; a sharper
-// one would fit a resonance of one plant.
+// Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
+// slew; a less damped one would fit a resonance of one plant.
 constexpr PoleBounds pole_bounds{.slowest = 0.1, .damping = 0.05};
 constexpr int steps_from_loops = 60;
 
@@ -63,7 +63,7 @@ class Study {
         const std::vector<EnsembleMember>& members, const PointingLimitOptions& options)
       : threads_(options.threads),
         start_(options.start),
-        misses_(options.misses),
+        violations_(options.violations),
         ratio_(problem.gear_ratio),
         goals_{goals.sensitivity_peak[1], goals.control_effort},
         filter_(fit_wind_filter(problem)) {
@@ -155,7 +155,7 @@ class Study {
         for (const auto edges : {std::span(at_edges_), std::span<const SampledSetting>()}) {
           const RobustConstraints constraints(settings_, stated, edges, refined_goals_, threads_);
           if (!constraints.stable(start)) continue;
-          options.misses = misses_;
+          options.violations = violations_;
           found = refine_controller(start, constraints, options);
           limit.refined_from = start_->name;
           if (found->feasible || at_edges_.empty()) break;
@@ -273,7 +273,7 @@ class Study {
 
   unsigned threads_;
   std::optional<DescribedController> start_;
-  std::function<int(const plant::StateSpace&)> misses_;
+  std::function<int(const plant::StateSpace&)> violations_;
   double ratio_;
   SampledLoopGoals goals_, refined_goals_;
   plant::ShapingFilter filter_;

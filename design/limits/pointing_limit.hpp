@@ -118,16 +118,16 @@ struct PointingLimitOptions {
   unsigned threads = 1;
   /// Where the refinement starts.
   std::optional<DescribedController> start = std::nullopt;
-  /// That of RefinementOptions, of a refinement from there.
-  std::function<int(const plant::StateSpace&)> misses = {};
+  /// RefinementOptions::violations of a refinement from there.
+  std::function<int(const plant::StateSpace&)> violations = {};
 };
 
 /// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and
 /// compares the controllers with them. The constraints are those on control effort and on Ms at the
-/// valve command, for the refined one also others. Each design is evaluated from its closed loop:
-/// eigenvalues, covariance, response. The result does not depend on the number of threads. Takes
-/// about a second without members; the robust search takes some 0.3 s per member on one thread, the
-/// refinement 1.2 s, besides what `misses` takes.
+/// valve command; PointingLimit::refined has further ones. Each design is evaluated from its closed
+/// loop: eigenvalues, covariance, response. The result does not depend on the number of threads.
+/// Takes about a second without members; the robust search takes some 0.3 s per member on one
+/// thread, the refinement 1.2 s, besides what `violations` takes.
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
 /// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable
 /// or observable.

@@ -20,14 +20,13 @@ constexpr Index sensors = ParallelSections::sensors;
 constexpr double spacing = 1.004;
 // Below the grid, where slow poles of a controller act.
 constexpr double slow_spacing = 1.3, slow_decades = 3.0;
-// What is kept in hand of peaks and effort, and by how much a step may miss it.
+// Logarithmic reserves of peaks and effort, and the violation of them that counts as none.
 constexpr double peak_margin = 2e-3, effort_margin = 4e-3, tolerance = 1e-3;
-// What an accepted step leaves of a correction that it does not need.
+// Factor on corrections that an accepted step does not need.
 constexpr double correction_fall = 0.7;
-// An rms at standstill may be that much of the start's when the largest over the plants is as
-// large.
+// Weight of the rms at standstill: its ratio to the start's may be larger by this factor.
 constexpr double allowance_at_standstill = 1.15;
-// Cost of missing a constraint by a factor of e: above what it can gain.
+// Penalty per logarithmic violation, above what a violation can gain.
 constexpr double slack_cost = 5.0, max_slack = 3.0;
 constexpr int evaluations_a_step = 15;
 constexpr std::size_t plants_a_block = 6;
@@ -208,7 +207,7 @@ MatrixXd RefinementProblem::by_parameters(const std::array<MatrixXd, sensors>& d
   return result;
 }
 
-// The last variable is by how much constraints are missed. Constraints: the peaks, the efforts, the
+// The last variable is the violation that is allowed, at a cost. Constraints: peaks, efforts,
 // conditions of stability.
 void RefinementProblem::evaluate(const std::vector<double>& point,
                                  ConstrainedValues& values) const {
@@ -275,8 +274,8 @@ RefinementProblem::Step RefinementProblem::step(double radius) const {
   problem.objectives = rated_;
   problem.constraints = static_cast<std::size_t>(corrections_.size() + static_cast<Index>(moving_) +
                                                  sections_.stability(centre_).conditions.size());
-  // The search's own record has only points that miss no constraint at all, and curved ones are
-  // always missed by a little.
+  // FeasibleSearch records only points without any violation; curved constraints always leave a
+  // small one.
   Step result;
   double at_centre = std::numeric_limits<double>::quiet_NaN(), least = HUGE_VAL;
   problem.evaluate = [&](const std::vector<double>& point, ConstrainedValues& values) {

@@ -13,10 +13,10 @@
 
 namespace boresight::design {
 
-/// What refine_controller searches step by step: the largest rms within the constraints, as a
-/// function of all numbers of a controller (ParallelSections), with gradients, by the figures of
-/// SampledSpectrum on every plant. They know peaks at their frequencies only; what exact peaks
-/// exceed them by is set by correct().
+/// The optimisation problem of one step of refine_controller: minimise the largest rms within the
+/// constraints over all parameters of a controller (ParallelSections). Values and gradients are the
+/// figures of SampledSpectrum on every plant. These are evaluated at discrete frequencies;
+/// correct() adds the difference to the exact peaks.
 class RefinementProblem {
  public:
   /// `bounds`: of ParallelSections. Refers to the constraints. `start` is stable on all plants; its
@@ -28,23 +28,23 @@ class RefinementProblem {
   struct Step {
     Eigen::VectorXd parameters;
     plant::StateSpace controller;
-    double gain = 0.0;      // of the objective, ln, less the cost of what is missed
-    double missed = 0.0;    // ln, of the constraints, beyond a tolerance
-    long evaluations = 0;   // of all figures on all plants, with gradients
-    Eigen::VectorXd peaks;  // as RobustConstraints::peaks, at the frequencies, from above
+    double gain = 0.0;      // decrease of objective and penalty of violations
+    double missed = 0.0;    // largest logarithmic violation beyond a tolerance
+    long evaluations = 0;   // of all figures and gradients on all plants
+    Eigen::VectorXd peaks;  // as RobustConstraints::peaks, by LoopFigures
   };
 
-  /// The best point found in a box of that half-width about the centre, at first the start, in
-  /// coordinates in which a unit changes the mean square of the boresight or of the command's noise
-  /// or a sensitivity by about itself.
+  /// The best point in a box of this half-width about the centre, which is the start at first. A
+  /// unit of the coordinates changes the mean square of the boresight or of the command's noise, or
+  /// a sensitivity, by about itself.
   Step step(double radius) const;
 
+  /// Makes a step the centre.
   void move_to(const Step& step);
 
   enum class Correction { afresh, more };
-  /// Takes the exact peaks of a step (RobustConstraints::peaks) for what the frequencies miss from
-  /// now on: where that is more than before, or afresh, which leaves 70 % of what is no longer
-  /// needed. Whether a correction rose.
+  /// Sets the corrections of the peaks from the exact peaks of a step (RobustConstraints::peaks).
+  /// `more`: only upwards. `afresh`: also downwards, by at most 30 %. Returns whether one rose.
   bool correct(const Step& step, const Eigen::VectorXd& exact, Correction how);
 
   /// ln of the largest ratio of an rms (as RobustConstraints::rms) to that of the start: of the

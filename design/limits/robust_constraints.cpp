@@ -97,7 +97,12 @@ Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) co
 }
 
 double RobustConstraints::excess(const plant::StateSpace& controller) const {
-  const double of_peak = peaks(controller).maxCoeff() + reserve;
+  return excess(controller, peaks(controller));
+}
+
+double RobustConstraints::excess(const plant::StateSpace& controller,
+                                 const Eigen::VectorXd& peaks) const {
+  const double of_peak = peaks.maxCoeff() + reserve;
   if (of_peak > 0.0) return std::min(of_peak, unstable);
   if (!stable(controller)) return unstable;
   std::vector<double> effort(plants_.size());

@@ -51,6 +51,8 @@ class RobustConstraints {
   /// ln of the largest ratio of a quantity to its goal: met up to 0. At most 3, which also stands
   /// for an unstable loop or controller. Where a peak exceeds its goal only peaks count.
   double excess(const plant::StateSpace& controller) const;
+  /// The same with the controller's peaks() at hand.
+  double excess(const plant::StateSpace& controller, const Eigen::VectorXd& peaks) const;
 
   /// ln of the ratio of each peak to its goal: of |S| at the valve command on the plants, those at
   /// standstill and those at edges, then of the position loop's, if limited, on the plants and

@@ -71,10 +71,10 @@ double boresight_mean_square(const SampledSpectrum& spectrum, const ArrayXXcd& c
   return (spectrum.weights * density).sum() + spectrum.unavoidable_cost;
 }
 
-// ln of the smooth upper bound of the largest magnitude, and half of each value's share in it.
+// ln of the smooth upper bound of the largest magnitude, and half of each value's fraction of it.
 struct SmoothPeak {
   double logarithm = 0.0;
-  Eigen::ArrayXd shares;
+  Eigen::ArrayXd fractions;
 };
 
 SmoothPeak smooth_peak(const ArrayXcd& values) {
@@ -151,15 +151,15 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
 
   const SmoothPeak peak = smooth_peak(sensitivity);
   result.sensitivity_peak = {peak.logarithm,
-                             spectrum.response.colwise() * (sensitivity * peak.shares)};
+                             spectrum.response.colwise() * (sensitivity * peak.fractions)};
   const ArrayXcd inner = inner_loops(spectrum, controller);
   const SmoothPeak of_position = smooth_peak(sensitivity * inner);
   result.position_peak = {of_position.logarithm,
-                          spectrum.response.colwise() * (sensitivity * of_position.shares)};
+                          spectrum.response.colwise() * (sensitivity * of_position.fractions)};
   // The position loop's S = (1 + inner loops) S: it also changes with the inner ones.
   for (const Index sensor : {tachometer, motor_torque}) {
     result.position_peak.gradient.col(sensor) -=
-        spectrum.response.col(sensor) * of_position.shares / inner;
+        spectrum.response.col(sensor) * of_position.fractions / inner;
   }
 
   // With the command u = S K y, a change dK adds d(S K) = S dK + S^2 (dK P) K to it.

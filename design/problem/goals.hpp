@@ -22,7 +22,7 @@ struct Standstill {
     double friction = 0.0;      // N m s/rad, instead of the plant's viscous friction
     double encoder_gain = 1.0;  // by which the reading counts more than the angle
   };
-  /// Of encoder_edges: limits no loops, but the refinement of a state space (pointing_limit).
+  /// See encoder_edges. Only the refinement of a state space uses them (pointing_limit).
   std::vector<Edge> edges = {};
 };
 

@@ -20,7 +20,7 @@ double hydraulic_frequency(const plant::Antenna& antenna) {
   return plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
 }
 
-// Of an edge: amplitude by the encoder's step, frequencies by that of the hydraulic mode.
+// Amplitude at an edge over the encoder's step; frequencies over the hydraulic mode's.
 constexpr double edge_amplitude = 0.25;
 constexpr std::array<double, 4> edge_frequencies{0.27, 0.45, 0.8, 1.35};
 

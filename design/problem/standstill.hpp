@@ -19,14 +19,12 @@ namespace boresight::design {
 /// @throws InvalidInput as plant::linear_plant; NumericalFailure as plant::hydraulic_mode.
 std::vector<double> standstill_friction(const plant::Antenna& antenna);
 
-/// What limit cycles across an edge of the encoder amount to in a linear loop, by describing
-/// functions: a sine of amplitude A about the edge between two codes of step q is read as a square
-/// wave, with the gain 2 q/(pi A) (A. Gelb, W. E. Vander Velde, Multiple-Input Describing
-/// Functions, 1968, appendix B), and dry friction is plant::equivalent_friction at the amplitude of
-/// its rate. A is a quarter of a step: where no limit cycle of that amplitude exists, what is left
-/// is smaller, and too small to reach the next edge. At four frequencies from a quarter to four
-/// thirds of the hydraulic mode's, where they occurred in simulation. None where
-/// standstill_friction has none.
+/// Linear equivalents of a limit cycle across an edge between two codes of the encoder, by
+/// describing functions. A sine of amplitude A about the edge is read as a square wave of one step
+/// q, with the gain 2 q/(pi A) (A. Gelb, W. E. Vander Velde, Multiple-Input Describing Functions,
+/// 1968, appendix B). Dry friction is plant::equivalent_friction at the amplitude of its rate. A is
+/// a quarter of a step, at four frequencies from 0.27 to 1.35 times the hydraulic mode's, the range
+/// in which simulated loops limit-cycled. Empty where standstill_friction is.
 /// @throws as standstill_friction.
 std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna);
 

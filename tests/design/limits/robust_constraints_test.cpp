@@ -35,14 +35,25 @@ struct Plants {
   }
 };
 
+// Loops on a plant and on one at standstill.
+struct Loops {
+  std::vector<SampledSetting> moving, held, none;
+  plant::StateSpace controller;
+  Eigen::ArrayXXcd response;  // of the controller
+};
+
+Loops loops_on(const Plants& plants) {
+  Loops result{{plants.with_friction(0.9)}, {plants.with_friction(5.0)}, {}, {}, {}};
+  result.controller =
+      control::sampled_loop(result.moving.front().problem().plant, reference::lag_loops(), 0.02)
+          .controller;
+  result.response = SampledSetting::controller_response(result.controller, plants.frequency);
+  return result;
+}
+
 TEST(RobustConstraints, ExcessIsTheLargestRatioToAGoal) {
   const Plants plants;
-  const std::vector<SampledSetting> moving{plants.with_friction(0.9)};
-  const std::vector<SampledSetting> held{plants.with_friction(5.0)}, none;
-  const auto controller =
-      control::sampled_loop(moving.front().problem().plant, reference::lag_loops(), 0.02)
-          .controller;
-  const auto response = SampledSetting::controller_response(controller, plants.frequency);
+  const auto [moving, held, none, controller, response] = loops_on(plants);
   const double peak = moving.front().highest_peak(response).magnitude;
   const double held_peak = held.front().highest_peak(response).magnitude;
   const double effort = moving.front().control_effort(controller);
@@ -99,33 +110,28 @@ TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
   EXPECT_EQ(with(unstable).excess(controller), 3.0);
 }
 
-// Cut at the encoder alone the loop is the rest of the controller about the plant: S of all over S
-// of the rest.
+// 1 + L of the whole loop is (1 + L of tachometer and torque)(1 + L of the position loop).
 TEST(RobustConstraints, ThePositionLoopIsCutAtTheEncoderAlone) {
   const Plants plants;
-  const std::vector<SampledSetting> moving{plants.with_friction(0.9)};
-  const std::vector<SampledSetting> held{plants.with_friction(5.0)}, none;
-  const auto controller =
-      control::sampled_loop(moving.front().problem().plant, reference::lag_loops(), 0.02)
-          .controller;
+  const auto [moving, held, none, controller, response] = loops_on(plants);
   plant::StateSpace rest = controller;
   const auto encoder = std::ranges::find(rest.inputs, "encoder") - rest.inputs.begin();
   rest.b.col(encoder).setZero();
   rest.d.col(encoder).setZero();
   const auto sensitivity = [&](const SampledSetting& setting, const plant::StateSpace& of) {
-    const auto response = SampledSetting::controller_response(of, plants.frequency);
-    return sensitivity_function(sampled_spectrum(setting, plants.frequency), response);
+    return sensitivity_function(sampled_spectrum(setting, plants.frequency),
+                                SampledSetting::controller_response(of, plants.frequency));
   };
   const auto position_peak = [&](const SampledSetting& setting) {
     return (sensitivity(setting, controller) / sensitivity(setting, rest)).abs().maxCoeff();
   };
   const double peak = position_peak(moving.front()), at_rest = position_peak(held.front());
-  const auto response = SampledSetting::controller_response(controller, plants.frequency);
   EXPECT_NEAR(moving.front().highest_position_peak(response).magnitude, peak, 2e-3 * peak);
 
   const SampledLoopGoals goals{1e3, 1e3, 10.0 * at_rest, 1e3, peak / 1.1};
   const RobustConstraints limited(moving, held, none, goals, 1);
   EXPECT_NEAR(limited.excess(controller), std::log(1.1), 4e-3);
+  EXPECT_EQ(limited.excess(controller, limited.peaks(controller)), limited.excess(controller));
   const Eigen::VectorXd ratios = limited.peaks(controller);
   ASSERT_EQ(ratios.size(), 4);
   EXPECT_NEAR(ratios[0],

@@ -1,0 +1,96 @@
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
+#include <boresight/design/limits/refinement_problem.hpp>
+
+namespace boresight::design {
+namespace {
+
+// Loops on a plant and on one at standstill, well within their constraints.
+struct Refined {
+  TrackingProblem problem = [] {
+    TrackingProblem result = reference::tracking_problem();
+    result.noise.torque_rms = 0.5;
+    return result;
+  }();
+  SampledSetting with_friction(double friction) const {
+    plant::AntennaPlant plant = problem.plant;
+    plant.drive.viscous_friction = friction;
+    return {"plant",       plant, fit_wind_filter(problem),
+            problem.noise, 0.02,  plant::frequency_grid(problem.plant, 1e-3, 24.9, 100)};
+  }
+  std::vector<SampledSetting> plants{with_friction(0.9)}, held{with_friction(5.0)}, none;
+  plant::StateSpace start =
+      control::sampled_loop(plants.front().problem().plant, reference::lag_loops(), 0.02)
+          .controller;
+  SampledLoopGoals goals{.sensitivity_peak = 5.0,
+                         .control_effort = 1.3 * plants.front().control_effort(start),
+                         .standstill_peak = 8.0,
+                         .position_peak = 4.0};
+  RobustConstraints constraints{plants, held, none, goals, 1};
+};
+
+TEST(RefinementProblem, ObjectiveIsTheLargestRatioToTheStart) {
+  const Refined refined;
+  const RefinementProblem problem(refined.start, refined.constraints, {});
+  const Eigen::VectorXd rms = refined.constraints.rms(refined.start);
+  ASSERT_EQ(rms.size(), 2);
+  EXPECT_NEAR(problem.objective(rms), 0.0, 1e-12);
+  EXPECT_NEAR(problem.objective(Eigen::Vector2d(1.3 * rms[0], rms[1])), std::log(1.3), 1e-12);
+  // With the allowance at standstill.
+  EXPECT_NEAR(problem.objective(Eigen::Vector2d(0.1 * rms[0], 1.3 * rms[1])), std::log(1.3 / 1.15),
+              1e-12);
+}
+
+// The search's own values and gradients lead to what the exact quantities confirm.
+TEST(RefinementProblem, AStepGainsWhatItsControllerShows) {
+  const Refined refined;
+  ASSERT_LT(refined.constraints.excess(refined.start), -0.05);
+  const RefinementProblem problem(refined.start, refined.constraints, {});
+  const auto step = problem.step(0.05);
+  EXPECT_GT(step.gain, 0.01);
+  EXPECT_EQ(step.missed, 0.0);
+  const double objective = problem.objective(refined.constraints.rms(step.controller));
+  EXPECT_NEAR(-objective, step.gain, 1e-3 * step.gain + 1e-5);
+  const Eigen::VectorXd exact = refined.constraints.peaks(step.controller);
+  ASSERT_EQ(step.peaks.size(), exact.size());
+  EXPECT_LT((step.peaks - exact).cwiseAbs().maxCoeff(), 0.01);
+  EXPECT_GE((step.peaks - exact).minCoeff(), -1e-3);
+  // A smaller box holds less.
+  EXPECT_LT(problem.step(0.01).gain, step.gain);
+}
+
+// Where the peak is an active constraint, a correction of 1 % lowers it by 1 %.
+TEST(RefinementProblem, CorrectionsTightenTheirOwnConstraint) {
+  const Refined refined;
+  SampledLoopGoals goals = refined.goals;
+  goals.sensitivity_peak *= std::exp(refined.constraints.peaks(refined.start)[0]);
+  const RobustConstraints active(refined.plants, refined.held, refined.none, goals, 1);
+  RefinementProblem problem(refined.start, active, {});
+  constexpr double radius = 0.05;
+  const auto before = problem.step(radius);
+  ASSERT_GT(before.peaks[0], -0.004);
+  EXPECT_FALSE(problem.correct(before, before.peaks, RefinementProblem::Correction::more));
+  Eigen::VectorXd exact = before.peaks;
+  exact[0] += 0.01;
+  EXPECT_TRUE(problem.correct(before, exact, RefinementProblem::Correction::more));
+  const auto after = problem.step(radius);
+  EXPECT_LT(after.missed, 1e-3);
+  EXPECT_NEAR(before.peaks[0] - after.peaks[0], 0.01, 1.5e-3);
+  // `more` keeps a correction, `afresh` leaves 70 % of one that is not needed.
+  EXPECT_FALSE(problem.correct(before, before.peaks, RefinementProblem::Correction::more));
+  EXPECT_EQ(problem.step(radius).peaks[0], after.peaks[0]);
+  EXPECT_FALSE(problem.correct(before, before.peaks, RefinementProblem::Correction::afresh));
+  const double part =
+      (before.peaks[0] - problem.step(radius).peaks[0]) / (before.peaks[0] - after.peaks[0]);
+  EXPECT_GT(part, 0.4);
+  EXPECT_LT(part, 0.9);
+}
+
+}  // namespace
+}  // namespace boresight::design

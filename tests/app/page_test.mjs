@@ -167,7 +167,8 @@ for (const name of ["redesign", "match"]) {
     assert.match(html, /Content-Security-Policy" content="default-src 'none'/);
   });
 
-  test(`${name}: the same bytes again, on one thread`, () => {
+  // Of redesign redesign_card_test.py compares them, for a smaller search.
+  if (name !== "redesign") test(`${name}: the same bytes again, on one thread`, () => {
     const { page, args, json } = made[name];
     const content = () => readFileSync(page, "utf8").replace(/<code>boresight [^<]* --report [^<]*<\/code>/, "");
     const first = content();

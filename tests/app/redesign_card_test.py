@@ -46,19 +46,23 @@ def quick_case(name):
 
 
 @functools.lru_cache(maxsize=None)
+def quick_redesign(name, threads):
+    """JSON, text and page."""
+    with tempfile.TemporaryDirectory() as folder:
+        (pathlib.Path(folder) / "case.toml").write_text(quick_case(name), encoding="utf-8")
+        (pathlib.Path(folder) / "cases").symlink_to(SOURCE / "cases")
+        process = subprocess.run([PROGRAM, "redesign", "case.toml", "--details", "--json", "report.json", "--report",
+                                  "report.html", "--threads", str(threads)],
+                                 cwd=folder, capture_output=True, text=True, check=False)
+        assert process.returncode in (DONE, INFEASIBLE), process.stderr
+        return (*((pathlib.Path(folder) / file).read_text(encoding="utf-8") for file in
+                  ("report.json", "report.html")), process.stdout)
+
+
 def redesign(name):
     """The JSON report and the lines of the text; of the 70-m antenna those of the other tests."""
-    if name == BIG:
-        content, text = run("redesign", BIG)
-        return json.loads(content, parse_constant=refuse_constant), text.splitlines()
-    with tempfile.TemporaryDirectory() as folder:
-        case, report = pathlib.Path(folder) / "case.toml", pathlib.Path(folder) / "report.json"
-        case.write_text(quick_case(name), encoding="utf-8")
-        process = subprocess.run([PROGRAM, "redesign", str(case), "--details", "--json", str(report)],
-                                 cwd=SOURCE, capture_output=True, text=True, check=False)
-        assert process.returncode in (DONE, INFEASIBLE), process.stderr
-        return (json.loads(report.read_text(encoding="utf-8"), parse_constant=refuse_constant),
-                process.stdout.splitlines())
+    content, text = run("redesign", BIG) if name == BIG else quick_redesign(name, 2)[::2]
+    return json.loads(content, parse_constant=refuse_constant), text.splitlines()
 
 
 def card_of(report):
@@ -120,6 +124,12 @@ class Card(unittest.TestCase):
                 # Below the two lines of the title, above the first heading, between two blank lines.
                 self.assertLessEqual(heading - 1 - 2 - 2, LINES, lines[:heading])
                 self.assertTrue(lines[3].strip().startswith(VERDICTS), lines[3])
+
+    def test_does_not_depend_on_threads(self):
+        # The command that the page states names the number of threads.
+        one, two = ([part.replace(f"--threads {threads}", "") for part in quick_redesign("dss14-64m/case.toml", threads)]
+                    for threads in (1, 2))
+        self.assertEqual(one, two)
 
     def test_names_the_sections_with_its_evidence(self):
         for name in (BIG, *QUICK):

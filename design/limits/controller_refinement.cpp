@@ -109,7 +109,7 @@ class Refinement {
     std::size_t best = path.size(), back = 1;
     for (int i = 0; i < max_evaluated && back <= path.size() && least > 0; ++i) {
       const std::size_t place = path.size() - back;
-      const int violations = options_.violations(path[place].controller);
+      const int violations = options_.violations(path[place].controller, least);
       if (violations < least) {
         least = violations;
         best = place;

@@ -7,6 +7,9 @@
 
 namespace boresight::design {
 
+/// Counts a controller's violations. It may stop at `enough` of them and return that number.
+using CountViolations = std::function<int(const plant::StateSpace&, int enough)>;
+
 struct RefinementOptions {
   /// Steps of the search. Each takes about 0.6 s of computing with 31 plants and order 25.
   int steps = 24;
@@ -17,7 +20,7 @@ struct RefinementOptions {
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
   /// at the steps 1, 3, 6, 10 and 15 before it until one has none. The result is the step with the
   /// fewest. Empty: the last step.
-  std::function<int(const plant::StateSpace&)> violations = {};
+  CountViolations violations = {};
 };
 
 struct RefinementResult {

@@ -273,7 +273,7 @@ class Study {
 
   unsigned threads_;
   std::optional<DescribedController> start_;
-  std::function<int(const plant::StateSpace&)> violations_;
+  CountViolations violations_;
   double ratio_;
   SampledLoopGoals goals_, refined_goals_;
   plant::ShapingFilter filter_;

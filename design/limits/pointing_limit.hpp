@@ -1,11 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <boresight/design/ensembles/plant_ensemble.hpp>
+#include <boresight/design/limits/controller_refinement.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
 
 namespace boresight::design {
@@ -119,7 +119,7 @@ struct PointingLimitOptions {
   /// Where the refinement starts.
   std::optional<DescribedController> start = std::nullopt;
   /// RefinementOptions::violations of a refinement from there.
-  std::function<int(const plant::StateSpace&)> violations = {};
+  CountViolations violations = {};
 };
 
 /// Computes the limits of the problem's plant in its wind (or its climate's mean spectrum) and

@@ -25,8 +25,8 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
     options.start = {description_of(*recommended), recommended->design.tuning.controller};
   }
   if (mission.antenna.nonlinear) {
-    options.violations = [&](const plant::StateSpace& controller) {
-      return limit_cycle_violations(mission, problem, controller, threads);
+    options.violations = [&](const plant::StateSpace& controller, int enough) {
+      return limit_cycle_violations(mission, problem, controller, enough, threads);
     };
   }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);

@@ -126,15 +126,19 @@ TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
 
   // Violations are counted at the last step, then at earlier ones; the result has the fewest.
   std::vector<double> evaluated;
+  std::vector<int> limits;
   const auto with = [&](const std::function<bool(double)>& violated) {
     evaluated.clear();
-    return refine_controller(loops.start, constraints,
-                             {.steps = 30,
-                              .poles = poles,
-                              .violations = [&, violated](const plant::StateSpace& controller) {
-                                evaluated.push_back(loops.rms(controller));
-                                return violated(evaluated.back()) ? 1 : 0;
-                              }});
+    limits.clear();
+    return refine_controller(
+        loops.start, constraints,
+        {.steps = 30,
+         .poles = poles,
+         .violations = [&, violated](const plant::StateSpace& controller, int enough) {
+           evaluated.push_back(loops.rms(controller));
+           limits.push_back(enough);
+           return violated(evaluated.back()) ? 3 : 0;
+         }});
   };
   const double bound = 1.01 * found.boresight_rms;
   const auto earlier = with([&](double rms) { return rms < bound; });
@@ -149,6 +153,9 @@ TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
   EXPECT_EQ(evaluated.size(), 1U);
   EXPECT_EQ(with([](double) { return true; }).controller.b, found.controller.b);
   EXPECT_GT(evaluated.size(), 1U);
+  // As many as the best step has need not be counted further.
+  EXPECT_GT(limits.front(), 1000);
+  EXPECT_EQ(limits[1], 3);
 }
 
 // The structure is less damped than the controller's poles may be.

@@ -209,7 +209,7 @@ TEST(PointingLimit, RefinesFromTheLoopsItIsGiven) {
   const auto from = [&](const DescribedController& start) {
     return pointing_limit(
         problem, {}, members, {loops},
-        {.threads = 2, .start = start, .violations = [&](const plant::StateSpace& one) {
+        {.threads = 2, .start = start, .violations = [&](const plant::StateSpace& one, int) {
            evaluated = one;
            return 0;
          }});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
+#include "design/verification/demo_loop.hpp"
 #include "lag_loops.hpp"
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/studies/pointing_evaluation.hpp>
@@ -29,7 +30,7 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   const TrackingProblem problem = tracking_problem(mission);
   const control::Controller loops = reference::lag_loops();
   const auto simulated =
-      verify_in_time_domain(mission, problem, loops, "LL+L", 1, 2, FurtherRuns::all);
+      verify_in_time_domain(mission, problem, loops, "LL+L", 1, 2, FurtherRuns::none);
   ASSERT_TRUE(simulated);
   const auto study = study_state_space(mission, problem, limit_of(problem, loops), *simulated, 2);
   ASSERT_TRUE(study);
@@ -43,18 +44,29 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   ASSERT_TRUE(study->simulated.result.slew);
   EXPECT_EQ(study->limit_cycle_free,
             is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));
-  // A run with the stated friction counts as many times as there are runs.
-  const auto with_stated = [&](double rate) {
-    const auto& found = simulated->result.limit_cycles;
-    return std::ranges::find(found, rate, &LimitCycleResult::rate)->starts_with_limit_cycle;
+}
+
+// An integral, friction and encoder steps: a limit cycle with the stated friction, which decides.
+TEST(LimitCycleViolations, AreThoseOfTheStatedFrictionFirst) {
+  const reference::DemoLoop demo;
+  const auto as_state_space = [&](const control::Controller& loops) {
+    return limit_of(demo.problem, loops).refined->controller;
   };
-  ASSERT_EQ(simulated->limit_cycles_by_friction.size(), 8U);
-  const double tracking = simulated->options.tracking_rate;
-  int expected = 30 * (with_stated(0.0) + with_stated(tracking));
-  for (const LimitCyclesWithFriction& one : simulated->limit_cycles_by_friction) {
-    expected += one.limit_cycles;
+  const plant::StateSpace integral = as_state_space(demo.loop.controller);
+  const auto violations = [&](const plant::StateSpace& controller, int enough) {
+    return limit_cycle_violations(demo.mission, demo.problem, controller, enough, 2);
+  };
+  const auto simulated = verify_in_time_domain(demo.mission, demo.problem, demo.loop.controller,
+                                               "PI", 1, 2, FurtherRuns::none);
+  ASSERT_TRUE(simulated);
+  int starts = 0;
+  for (const LimitCycleResult& one : simulated->result.limit_cycles) {
+    starts += one.starts_with_limit_cycle;
   }
-  EXPECT_EQ(limit_cycle_violations(mission, problem, study->controller, 2), expected);
+  ASSERT_GT(starts, 0);
+  EXPECT_EQ(violations(integral, 1000), 30 * starts);
+  EXPECT_EQ(violations(integral, 1), 1);
+  EXPECT_EQ(violations(as_state_space(reference::lag_loops()), 1000), 0);
 }
 
 // Loops as a state space are assessed as the loops are, but for what has no place in it: the rate

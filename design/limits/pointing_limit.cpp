@@ -54,7 +54,7 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 constexpr double used_of_peak = 0.6;
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.
-constexpr PoleBounds pole_bounds{.slowest = 0.1, .damping = 0.05};
+constexpr PoleBounds pole_bounds{.slowest = 0.25, .damping = 0.05};
 constexpr int steps_from_loops = 60;
 
 class Study {

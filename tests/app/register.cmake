@@ -56,7 +56,7 @@ if(NOT CMAKE_BUILD_TYPE STREQUAL Sanitize)
     message(STATUS "Report pages are not tested: node, chromium or web/node_modules is missing")
   endif()
   # The longest begin first, as seconds one beside the other: else one of them ends alone.
-  foreach(test_and_cost page:1000 user_docs:900 reports:400 evaluate_doc:350 readme:220
+  foreach(test_and_cost user_docs:900 page:600 reports:500 evaluate_doc:350 readme:220
       montecarlo:150 simulation_schema:100)
     string(REPLACE ":" ";" test_and_cost ${test_and_cost})
     list(GET test_and_cost 0 test)

@@ -18,7 +18,7 @@ constexpr double max_excess = 0.02;
 // Repetitions in a row.
 constexpr int max_corrections = 2;
 // Logarithmic: largest violation of the search's own constraints in an accepted step.
-constexpr double max_missed = 0.01;
+constexpr double max_violation = 0.01;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5, growth = 2.0;
 // Steps at which RefinementOptions::violations is evaluated.
 constexpr int max_evaluated = 6;
@@ -38,8 +38,8 @@ class Refinement {
         problem_(start, constraints, attainable(options.poles, start)) {}
 
   RefinementResult run(const plant::StateSpace& start) {
-    double missed = constraints_.excess(start);
-    RefinementResult result{start, constraints_.largest_rms(start), !(missed > 0.0), 0, 0};
+    double violation = constraints_.excess(start);
+    RefinementResult result{start, constraints_.largest_rms(start), !(violation > 0.0), 0, 0};
     double radius = first_radius;
     double objective = 0.0;
     int corrected = 0;
@@ -58,7 +58,7 @@ class Refinement {
       const Eigen::VectorXd peaks = constraints_.peaks(found.controller);
       const double excess = constraints_.excess(found.controller, peaks);
       // From an infeasible start, half of the predicted reduction is accepted.
-      const double beyond = excess - (result.feasible ? 0.0 : 0.5 * (missed + found.missed));
+      const double beyond = excess - (result.feasible ? 0.0 : 0.5 * (violation + found.violation));
       if (beyond > 0.0) {
         const bool by_little = beyond < max_excess && corrected < max_corrections;
         if (by_little && problem_.correct(found, peaks, RefinementProblem::Correction::more)) {
@@ -69,7 +69,7 @@ class Refinement {
         continue;
       }
       // RobustConstraints does not include the bounds of the poles.
-      if (result.feasible && found.missed > max_missed) {
+      if (result.feasible && found.violation > max_violation) {
         shorten();
         continue;
       }
@@ -88,7 +88,7 @@ class Refinement {
       }
       corrected = 0;
       objective = next;
-      missed = excess;
+      violation = excess;
       problem_.correct(found, peaks, RefinementProblem::Correction::afresh);
       problem_.move_to(found);
       radius = std::min(growth * radius, max_radius);

@@ -50,7 +50,7 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 }
 
 // Fraction of the allowed Ms - 1 that the design uses. The rest is a reserve for plants other than
-// the members: some 98 % of sampled plants then meet the constraint.
+// the members: 95 to 98 % of sampled plants then meet all constraints (docs/limit-cycles.md).
 constexpr double used_of_peak = 0.6;
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.

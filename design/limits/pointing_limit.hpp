@@ -89,8 +89,9 @@ struct PointingLimit {
   /// PointingLimitOptions::start with the poles of the robustified LQG added. Its constraints: Ms
   /// at the valve, with a reserve for plants beyond the members; Ms of the position loop, cut at
   /// the encoder; the effort; stability and both peaks at the friction slopes of
-  /// Constraints::standstill; and |S| at its edges of the encoder, unless the start is unstable
-  /// there or no step meets that. If no start is given, or it has integrals or is unstable
+  /// Constraints::standstill; |S| at its edges of the encoder, unless the start is unstable there
+  /// or no step meets that; and bounds of the poles. Of its steps it has the fewest
+  /// PointingLimitOptions::violations. If no start is given, or it has integrals or is unstable
   /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
   /// LQG, where poles are repeated, and where no step meets every constraint.
   std::optional<SampledDesign> refined;

@@ -118,10 +118,10 @@ void RefinementProblem::move_to(const Step& step) {
 }
 
 bool RefinementProblem::correct(const Step& step, const VectorXd& exact, Correction how) {
-  const VectorXd missed = (exact - step.peaks).cwiseMax(0.0).array() + peak_margin;
-  const bool rose = (missed.array() > corrections_.array()).any();
+  const VectorXd needed = (exact - step.peaks).cwiseMax(0.0).array() + peak_margin;
+  const bool rose = (needed.array() > corrections_.array()).any();
   const double kept = how == Correction::afresh ? correction_fall : 1.0;
-  corrections_ = (kept * corrections_).cwiseMax(missed);
+  corrections_ = (kept * corrections_).cwiseMax(needed);
   return rose;
 }
 
@@ -280,12 +280,12 @@ RefinementProblem::Step RefinementProblem::step(double radius) const {
   double at_centre = std::numeric_limits<double>::quiet_NaN(), least = HUGE_VAL;
   problem.evaluate = [&](const std::vector<double>& point, ConstrainedValues& values) {
     evaluate(point, values);
-    const double missed = std::max(0.0, values.violation() + point.back() - tolerance);
-    const double cost = values.cost() - slack_cost * point.back() + slack_cost * missed;
+    const double violation = std::max(0.0, values.violation() + point.back() - tolerance);
+    const double cost = values.cost() - slack_cost * point.back() + slack_cost * violation;
     if (std::isnan(at_centre)) at_centre = cost;
     if (cost < least) {
       least = cost;
-      result.missed = missed;
+      result.violation = violation;
       result.parameters = moved(point);
     }
     return true;

@@ -28,15 +28,15 @@ class RefinementProblem {
   struct Step {
     Eigen::VectorXd parameters;
     plant::StateSpace controller;
-    double gain = 0.0;      // decrease of objective and penalty of violations
-    double missed = 0.0;    // largest logarithmic violation beyond a tolerance
-    long evaluations = 0;   // of all figures and gradients on all plants
-    Eigen::VectorXd peaks;  // as RobustConstraints::peaks, by LoopFigures
+    double gain = 0.0;       // decrease of objective and penalty of violations
+    double violation = 0.0;  // the largest, logarithmic, beyond a tolerance
+    long evaluations = 0;    // of all figures and gradients on all plants
+    Eigen::VectorXd peaks;   // as RobustConstraints::peaks, by LoopFigures
   };
 
   /// The best point in a box of this half-width about the centre, which is the start at first. A
   /// unit of the coordinates changes the mean square of the boresight or of the command's noise, or
-  /// a sensitivity, by about itself.
+  /// a sensitivity, by about 40 % of itself over all plants.
   Step step(double radius) const;
 
   /// Makes a step the centre.

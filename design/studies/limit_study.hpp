@@ -7,8 +7,8 @@ namespace boresight::design {
 
 /// Compares a finished study's controllers of one wind speed (m/s), and the present gains, with the
 /// lower bound for any controller at that speed. See design/limits/pointing_limit.hpp. The refined
-/// one starts from the recommended controller, if there is one. With Antenna::nonlinear it has
-/// the fewest limit_cycle_violations of the steps evaluated (RefinementOptions::violations).
+/// one starts from the recommended controller, if there is one. With Antenna::nonlinear its
+/// PointingLimitOptions::violations are limit_cycle_violations.
 /// @throws as pointing_limit.
 PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& study,
                                 const PlantEnsemble& ensemble, double wind_speed, unsigned threads);

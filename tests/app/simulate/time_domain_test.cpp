@@ -451,6 +451,25 @@ TEST(TimeDomain, ChoosesTheLeastSimulatedRms) {
   EXPECT_TRUE(std::isnan(lost.simulated_rms()));
   EXPECT_FALSE(figure_change(chosen.own(), lost));
   EXPECT_FALSE(chosen.result.wind.influences.empty());
+  // With other friction only where it is verified: four variations, at rest and tracking.
+  EXPECT_EQ(chosen.limit_cycles_by_friction.size(), 8U);
+  EXPECT_TRUE(choice.chosen(design::ChoiceDetail::compared).limit_cycles_by_friction.empty());
+}
+
+TEST(TimeDomain, SaysWhichOtherFrictionLimitCycles) {
+  auto other = section();
+  EXPECT_THAT(to_text(other), Not(HasSubstr("other friction")));
+  other.limit_cycles_by_friction = {{"torques x 0.7", 0.0, 3, 0, 0.05 * mdeg},
+                                    {"torques x 0.7", 4.17 * mdeg, 3, 0, 0.01 * mdeg},
+                                    {"torques x 1.3", 0.0, 3, 0, 0.06 * mdeg},
+                                    {"torques x 1.3", 4.17 * mdeg, 3, 0, 0.02 * mdeg}};
+  EXPECT_THAT(on_one_line(to_text(other)),
+              HasSubstr("With other friction (torques x 0.7; torques x 1.3): no limit cycle in 12 "
+                        "runs, +-0.0600 mdeg at the encoder at most."));
+  other.limit_cycles_by_friction[2].limit_cycles = 2;
+  EXPECT_THAT(on_one_line(to_text(other)),
+              HasSubstr("not confirmed: torques x 1.3 at rest in 2 of 3 runs, +-0.0600 mdeg at the "
+                        "encoder. None with torques x 0.7."));
 }
 
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {

@@ -112,7 +112,7 @@ struct LoopsWithIdlePoles {
 };
 
 // The loops have more effort than allowed.
-TEST(ControllerRefinement, LeadsAStartThatMissesConstraintsToWhereItMeetsThem) {
+TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem) {
   const PoleBounds poles{.slowest = 0.3};
   const LoopsWithIdlePoles loops(poles);
   const double effort = loops.plants.front().control_effort(loops.start);

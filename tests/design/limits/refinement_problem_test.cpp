@@ -54,7 +54,7 @@ TEST(RefinementProblem, AStepGainsWhatItsControllerShows) {
   const RefinementProblem problem(refined.start, refined.constraints, {});
   const auto step = problem.step(0.05);
   EXPECT_GT(step.gain, 0.01);
-  EXPECT_EQ(step.missed, 0.0);
+  EXPECT_EQ(step.violation, 0.0);
   const double objective = problem.objective(refined.constraints.rms(step.controller));
   EXPECT_NEAR(-objective, step.gain, 1e-3 * step.gain + 1e-5);
   const Eigen::VectorXd exact = refined.constraints.peaks(step.controller);
@@ -80,7 +80,7 @@ TEST(RefinementProblem, CorrectionsTightenTheirOwnConstraint) {
   exact[0] += 0.01;
   EXPECT_TRUE(problem.correct(before, exact, RefinementProblem::Correction::more));
   const auto after = problem.step(radius);
-  EXPECT_LT(after.missed, 1e-3);
+  EXPECT_LT(after.violation, 1e-3);
   EXPECT_NEAR(before.peaks[0] - after.peaks[0], 0.01, 1.5e-3);
   // `more` keeps a correction, `afresh` leaves 70 % of one that is not needed.
   EXPECT_FALSE(problem.correct(before, before.peaks, RefinementProblem::Correction::more));

@@ -8,6 +8,7 @@
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/studies/pointing_evaluation.hpp>
 #include <boresight/design/studies/state_space_study.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::design {
@@ -67,6 +68,29 @@ TEST(LimitCycleViolations, AreThoseOfTheStatedFrictionFirst) {
   EXPECT_EQ(violations(integral, 1000), 30 * starts);
   EXPECT_EQ(violations(integral, 1), 1);
   EXPECT_EQ(violations(as_state_space(reference::lag_loops()), 1000), 0);
+}
+
+// With a slower integral there is none with the stated friction, but with other friction.
+TEST(LimitCycleViolations, AreThoseOfOtherFrictionWhereTheStatedHasNone) {
+  reference::DemoLoop demo;
+  demo.loop.controller.gains[4] *= 0.25;
+  demo.loop.encoder_resolution = std::sqrt(12.0) * demo.problem.noise.encoder_rms;
+  NonlinearVerificationOptions options;
+  options.tracking_rate = demo.mission.antenna.drive.tracking_rate;
+  options.limits = {demo.mission.antenna.drive.slew_rate, 0.2 * degree};
+  options.threads = 2;
+  int expected = 0;
+  for (const LimitCyclesWithFriction& one : limit_cycles_by_friction(
+           demo.loop, friction_variations(demo.loop.antenna.friction), options)) {
+    expected += one.limit_cycles;
+  }
+  ASSERT_GT(expected, 1);
+  const auto controller = limit_of(demo.problem, demo.loop.controller).refined->controller;
+  const auto violations = [&](int enough) {
+    return limit_cycle_violations(demo.mission, demo.problem, controller, enough, 2);
+  };
+  EXPECT_EQ(violations(1000), expected);
+  EXPECT_EQ(violations(1), 1);
 }
 
 // Loops as a state space are assessed as the loops are, but for what has no place in it: the rate

@@ -132,7 +132,7 @@ class CaseFileDocument(unittest.TestCase):
 
     def test_tables_may_be_left_out_where_the_document_says_so(self):
         for key, needed in documented_keys()[ROOT].items():
-            # A table goes with all below it.
+            # A table is left out with all its subtables.
             kept = re.sub(rf"^\[\[?{key}[.\]].*?(?=^\[|\Z)", "", CASE, flags=re.M | re.S)
             kept = re.sub(rf"^{key} = .*\n", "", kept, flags=re.M)
             with self.subTest(table=key):
@@ -140,7 +140,7 @@ class CaseFileDocument(unittest.TestCase):
                 if needed == "yes":
                     self.assertIn(f" {key}: expected", refusal(kept))
                 elif key in ("tachometer", "friction_tests", "resonance", "impulse"):
-                    # What is stated about the test goes with it.
+                    # Statements about the test are left out with it.
                     self.assertNotIn("missing", refusal(kept))
                 else:
                     self.assertEqual(refusal(kept), "")

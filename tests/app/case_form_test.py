@@ -161,7 +161,7 @@ class CaseForm(unittest.TestCase):
                 continue
             with self.subTest(table=table, line=line):
                 message = refusal("\n".join(lines[:number] + [line[1:]] + lines[number + 1:]))
-                # One that goes with another may be refused alone.
+                # A key that depends on another may be refused alone.
                 together = documented()[table][key.group(2)][2].startswith("with ")
                 if not together and not EITHER.search(message):
                     self.assertRegex(message, r"^$|beside it|key is missing|expected a readable")
@@ -176,7 +176,7 @@ class CaseForm(unittest.TestCase):
             header = HEADER.match(lines[begin]).group(2)
             outer = header.strip("[]").rpartition(".")[0]
             if any(HEADER.match(lines[number]).group(2).strip("[]") == outer for number in top):
-                continue  # goes with the table that it stands in
+                continue  # left out with the table that contains it
             used = list(lines)
             for number in range(begin, len(lines)):
                 inner = HEADER.match(lines[number])

@@ -175,10 +175,10 @@ class Numbers(unittest.TestCase):
         self.assertTrue(mean["contradictory"])
         self.assertIn(f"would be {mean['reflected_inertia_kg_m2']:.3f}", " ".join(text.split()))
         for budget in found["tuning"]["budgets"]:
-            limit, chance = budget["wind_speed_limit_m_per_s"], budget["probability"]
+            limit, probability = budget["wind_speed_limit_m_per_s"], budget["probability"]
             self.assertIsNotNone(re.search(
-                rf"{re.escape(budget['name'])} +{budget['band']} .* {limit:.2f} +{3.6 * limit:.1f} +{chance['value_1']:.3f} "
-                rf"\({chance['lower_1']:.3f} to {chance['upper_1']:.3f}\)\n", text))
+                rf"{re.escape(budget['name'])} +{budget['band']} .* {limit:.2f} +{3.6 * limit:.1f} +{probability['value_1']:.3f} "
+                rf"\({probability['lower_1']:.3f} to {probability['upper_1']:.3f}\)\n", text))
         members = found["tuning"]["ensemble"]
         met = found["tuning"]["probability_all_constraints_met"]
         self.assertIn(f"Constraints met: {members['within_constraints']} of {len(members['members'])} ensemble members; "
@@ -248,7 +248,7 @@ class Campaign(unittest.TestCase):
         for one in self.found["advice"]:
             left = [test["interval_remaining_1"] for test in one["tests"]]
             self.assertEqual(left, sorted(left))
-            self.assertTrue(all(0 < share <= 1 + 1e-9 for share in left))
+            self.assertTrue(all(0 < fraction <= 1 + 1e-9 for fraction in left))
 
     def test_gives_plots_whose_series_belong_together(self):
         plots = self.found["plots"]
@@ -367,10 +367,10 @@ class Redesign(unittest.TestCase):
                 self.assertAlmostEqual(method["antenna_remainder"]["value_kg_m2"], value - side)
                 self.assertAlmostEqual(method["motor_to_load_ratio"]["value_1"],
                                        motors / (value - motors), delta=1e-6)
-                shares = [c["variance_fraction_1"] for c in inertia["contributions"]]
+                fractions = [c["variance_fraction_1"] for c in inertia["contributions"]]
                 # Inputs below 1 % of the variance are left out.
-                self.assertTrue(0.9 < sum(shares) < 1 + 1e-9)
-                self.assertEqual(shares, sorted(shares, reverse=True))
+                self.assertTrue(0.9 < sum(fractions) < 1 + 1e-9)
+                self.assertEqual(fractions, sorted(fractions, reverse=True))
             self.assertAlmostEqual(found["methods"][0]["reflected_inertia"]["value_kg_m2"],
                                    plant["reflected_inertia_kg_m2"])
 

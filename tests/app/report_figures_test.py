@@ -28,8 +28,8 @@ def at(series, x):
     place = bisect.bisect_left(series["x"], x)
     if place == len(series["x"]) or series["x"][place] == x:
         return series["y"][min(place, len(series["x"]) - 1)]
-    share = (x - series["x"][place - 1]) / (series["x"][place] - series["x"][place - 1])
-    return (1 - share) * series["y"][place - 1] + share * series["y"][place]
+    fraction = (x - series["x"][place - 1]) / (series["x"][place] - series["x"][place - 1])
+    return (1 - fraction) * series["y"][place - 1] + fraction * series["y"][place]
 
 
 class Near(unittest.TestCase):
@@ -253,7 +253,7 @@ class Studies(Near):
         self.assertTrue(drawn["labels"])
         for label, x in zip(drawn["labels"], drawn["x"]):
             self.assertAlmostEqual(x, costs[label], 3)
-        shares = series_of(figures["probabilities"], 0)
-        self.assertAlmostEqual(sum(shares["x"]), 1.0, 4)
-        for x, low, high in zip(shares["x"], shares["x_lower"], shares["x_upper"]):
+        probabilities = series_of(figures["probabilities"], 0)
+        self.assertAlmostEqual(sum(probabilities["x"]), 1.0, 4)
+        for x, low, high in zip(probabilities["x"], probabilities["x_lower"], probabilities["x_upper"]):
             self.assertTrue(low <= x <= high)

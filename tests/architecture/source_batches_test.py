@@ -62,7 +62,7 @@ with tempfile.TemporaryDirectory() as name:
                                               encoding="utf-8")
     headers = Headers(folder)
     assert headers.declared("#include <boresight/plant/one.hpp>\n") == {"declared", "Inner", "Base"}
-    defines = "#include <boresight/plant/one.hpp>\ndouble Inner::at(int share) {\n}\n"
+    defines = "#include <boresight/plant/one.hpp>\ndouble Inner::at(int part) {\n}\n"
     assert {"member", "inherited"} <= headers.declared(defines), headers.declared(defines)
     assert headers.declared("#include <vector>\n") == set()
     assert batches([first, same, word, member], 10, None, headers) == [[first, same, word, member]]

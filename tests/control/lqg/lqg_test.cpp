@@ -270,7 +270,8 @@ TEST(NoiseEffortLqg, CostsWhatTheClosedLoopShows) {
       const double found = evaluated(problem, design.controller) +
                            weight * evaluate(problem, design.controller, false).command;
       EXPECT_NEAR(found / design.cost, 1.0, 1e-8) << delay << " " << weight;
-      // The LQG of the same total weight charges the wind's share as well.
+      // The LQG of the same total weight also charges the fraction of the command that the wind
+      // causes.
       LqgProblem alike = problem;
       alike.command_weight["torque"] = weight;
       const auto other = lqg(alike).controller;

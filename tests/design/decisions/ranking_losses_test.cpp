@@ -13,7 +13,7 @@ using testing::ElementsAre;
 
 constexpr double lost = std::numeric_limits<double>::infinity();
 
-// Of 1000 draws the losses 1 to 2 evenly, times `scale`, but for a share that fails.
+// 1000 samples: losses from 1 to 2, evenly spaced, times `scale`; the fraction `failing` fails.
 OptionStatistics option(double scale, double failing) {
   Eigen::MatrixXd losses(1000, 1);
   for (Eigen::Index i = 0; i < losses.rows(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
@@ -90,6 +91,36 @@ std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t 
                                           between(ranges.oil_stiffness, fractions[1][i]),
                                           between(ranges.leakage_rate, fractions[2][i]),
                                           between(ranges.viscous_friction, fractions[3][i])});
+  }
+  return members;
+}
+
+std::vector<EnsembleMember> corner_members(const Mission& mission) {
+  using enum UncertainInput;
+  constexpr double median = 0.5, lower = 0.05, upper = 0.95;
+  const auto distribution = PlantDistribution::of_ranges(mission);
+  std::vector<std::vector<double>> corners{{}};
+  for (const UncertainInput input : distribution.inputs()) {
+    std::vector<double> ends{median};
+    if (input == structure_frequency || input == oil_stiffness || input == antenna_inertia) {
+      ends = {lower, upper};
+    } else if (input == leakage_rate || input == friction_slope) {
+      ends = {lower};
+    }
+    std::vector<std::vector<double>> next;
+    for (const auto& corner : corners) {
+      for (const double end : ends) {
+        next.push_back(corner);
+        next.back().push_back(end);
+      }
+    }
+    corners = std::move(next);
+  }
+  std::vector<EnsembleMember> members;
+  for (const auto& corner : corners) {
+    members.push_back(
+        {fmt::format("corner {}", members.size() + 1),
+         linear_plant(changed(mission.antenna, changes_of(distribution.at_fractions(corner))))});
   }
   return members;
 }

@@ -27,4 +27,11 @@ struct PlantEnsemble {
 /// @throws InvalidInput as plant::changed and plant::linear_plant.
 std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t seed);
 
+/// Plants at the corners of PlantDistribution::of_ranges: every combination of both ends of
+/// structure frequency, oil stiffness and antenna inertia, of those that vary, with leakage and
+/// friction at their lower ends, where they damp least. The ends are the 5 % and 95 % quantiles.
+/// Unlike plant_members they vary the inertia, and have several inputs at an end.
+/// @throws InvalidInput as plant::changed and plant::linear_plant.
+std::vector<EnsembleMember> corner_members(const Mission& mission);
+
 }  // namespace boresight::design

@@ -21,7 +21,8 @@ constexpr int max_corrections = 2;
 constexpr double max_violation = 0.01;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5, growth = 2.0;
 // Steps at which RefinementOptions::violations is evaluated.
-constexpr int max_evaluated = 6;
+constexpr int max_evaluated = 10;
+constexpr std::size_t first_stride = 2;
 constexpr double worthwhile = 1e-4;
 
 PoleBounds attainable(const PoleBounds& bounds, const plant::StateSpace& start) {
@@ -46,6 +47,7 @@ class Refinement {
     std::vector<RefinementResult> path;  // the steps that met every constraint
     const auto shorten = [&] {
       radius *= 0.5;
+      problem_.ease_corrections();
       corrected = 0;
     };
     for (int i = 0; i < options_.steps && radius >= min_radius; ++i) {
@@ -105,18 +107,24 @@ class Refinement {
  private:
   RefinementResult fewest_violations(RefinementResult found,
                                      std::vector<RefinementResult> path) const {
+    if (path.empty()) return found;
     int least = std::numeric_limits<int>::max();
-    std::size_t best = path.size(), back = 1;
-    for (int i = 0; i < max_evaluated && back <= path.size() && least > 0; ++i) {
-      const std::size_t place = path.size() - back;
-      const int violations = options_.violations(path[place].controller, least);
-      if (violations < least) {
-        least = violations;
-        best = place;
+    std::size_t best = path.size() - 1, place = best, stride = first_stride;
+    std::size_t later = path.size();  // the first known step with violations, after `best`
+    for (int i = 0; i < max_evaluated; ++i) {
+      const int violations = options_.violations(path[place].controller, std::max(least, 1));
+      if (violations == 0 || violations < least) best = place;
+      if (violations > 0) later = place;
+      least = std::min(violations, least);
+      if (least == 0) {
+        if (best + 1 >= later) break;
+        place = best + (later - best) / 2;
+      } else {
+        if (place == 0) break;
+        place -= std::min(place, stride);
+        stride *= 2;
       }
-      back += static_cast<std::size_t>(1 + i);
     }
-    if (best == path.size()) return found;
     path[best].evaluations = found.evaluations;
     return std::move(path[best]);
   }

@@ -11,15 +11,16 @@ namespace boresight::design {
 using CountViolations = std::function<int(const plant::StateSpace&, int enough)>;
 
 struct RefinementOptions {
-  /// Steps of the search. Each takes about 0.6 s of computing with 31 plants and order 25.
+  /// Steps of the search. Each takes about 0.3 s of computing with 31 plants and order 31.
   int steps = 24;
-  /// Bounds of the controller's poles; the start's own where it exceeds them. An error that a slew
+  /// Bounds of the controller's poles; the start's own where it violates them. An error that a slew
   /// leaves in a slow pole decays as slowly.
   PoleBounds poles = {};
   /// Number of violations of a requirement that is too expensive to evaluate at every step, such as
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
-  /// at the steps 1, 3, 6, 10 and 15 before it until one has none. The result is the step with the
-  /// fewest. Empty: the last step.
+  /// at the steps 2, 6, 14 and so on before it until one has none, then between that one and the
+  /// next with some by halving the interval; 10 times at most. The result is the last step without,
+  /// or that with the fewest. Empty: the last step.
   CountViolations violations = {};
 };
 
@@ -38,7 +39,7 @@ struct RefinementResult {
 /// The objective is the largest ratio of an rms to that of the start
 /// (RefinementProblem::objective). It includes the rms on each plant at standstill, which
 /// represents wind with much friction; otherwise the result would suit the frictionless antenna
-/// only. Plants at an edge of the encoder only limit |S|.
+/// only. Plants at an edge of the encoder and corners only limit |S|.
 ///
 /// Each step is a search by sequential quadratic programming within a box about the present
 /// controller (RefinementProblem). A step is accepted if the exact quantities of RobustConstraints

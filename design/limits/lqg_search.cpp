@@ -253,7 +253,7 @@ plant::StateSpace weighted_lqg(const SampledSetting& setting, const LqgWeights& 
 }
 
 LqgSearchResult search_limited_lqg(const SampledSetting& nominal, const SampledLoopGoals& goals) {
-  const RobustConstraints constraints({&nominal, 1}, {}, {}, goals, 1);
+  const RobustConstraints constraints({.plants = {&nominal, 1}}, goals, 1);
   Search search(nominal, constraints);
   const auto rms_at = [&](double log_noise) {
     return search.rms_at({.input_noise = search.input_unit() * std::exp(log_noise)});

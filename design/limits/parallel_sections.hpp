@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -81,5 +82,11 @@ PoleBounds bounds_of(const plant::StateSpace& controller);
 /// @throws InvalidInput without the output valve_command.
 plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
                                   const plant::StateSpace& other, const PoleBounds& bounds);
+
+/// The same with pairs of poles of these frequencies (rad/s, their size) and this damping ratio
+/// (PoleBounds::damping). Pairs that are too fast for it at the controller's sample time are left
+/// out. @throws InvalidInput without the output valve_command.
+plant::StateSpace with_idle_pairs(const plant::StateSpace& controller,
+                                  std::span<const double> frequencies, double damping);
 
 }  // namespace boresight::design

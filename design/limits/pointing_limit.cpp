@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -50,12 +51,23 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 }
 
 // Fraction of the allowed Ms - 1 that the design uses. The rest is a reserve for plants other than
-// the members: 95 to 98 % of sampled plants then meet all constraints (docs/limit-cycles.md).
-constexpr double used_of_peak = 0.6;
+// members and corners: 99 % of sampled plants then meet all constraints (docs/limit-cycles.md).
+constexpr double used_of_peak = 0.75;
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.
 constexpr PoleBounds pole_bounds{.slowest = 0.25, .damping = 0.05};
-constexpr int steps_from_loops = 60;
+constexpr int steps_from_loops = 90;
+// Pairs of poles that a refined controller has beside those of its start and of the LQG: as
+// multiples of the hydraulic mode's frequency, about which its loop crosses over.
+constexpr std::array<double, 3> further_frequencies{0.55, 1.5, 3.75};
+constexpr double damping_of_further_pairs = 0.5;
+
+std::vector<double> further_pairs(const plant::AntennaPlant& plant) {
+  const double mode = two_pi * plant::hydraulic_mode(plant::plant_modes(plant)).frequency;
+  std::vector<double> result;
+  for (const double factor : further_frequencies) result.push_back(factor * mode);
+  return result;
+}
 
 class Study {
  public:
@@ -77,6 +89,7 @@ class Study {
     }
     std::vector<EnsembleMember> all = members;
     all.insert(all.end(), held.begin(), held.end());
+    all.insert(all.end(), options.corners.begin(), options.corners.end());
     const Eigen::ArrayXd frequency = peak_frequencies(problem, all, options.sample_time);
     const auto add = [&](std::vector<SampledSetting>& to, const std::string& name,
                          const plant::AntennaPlant& plant) {
@@ -84,6 +97,7 @@ class Study {
     };
     add(settings_, "nominal", problem.plant);
     for (const EnsembleMember& member : members) add(settings_, member.name, member.plant);
+    for (const EnsembleMember& corner : options.corners) add(corners_, corner.name, corner.plant);
     for (const EnsembleMember& member : held) add(at_standstill_, member.name, member.plant);
     refined_goals_ = goals_;
     refined_goals_.sensitivity_peak = 1.0 + used_of_peak * (goals_.sensitivity_peak - 1.0);
@@ -147,13 +161,19 @@ class Study {
       const plant::StateSpace& lqg = robust.design.controller;
       std::optional<RefinementResult> found;
       if (start_) {
-        const auto start = with_idle_poles(sampled(start_->controller), lqg, pole_bounds);
+        const auto start =
+            with_idle_pairs(with_idle_poles(sampled(start_->controller), lqg, pole_bounds),
+                            further_pairs(nominal().plant()), damping_of_further_pairs);
         RefinementOptions options;
         options.steps = steps_from_loops;
         options.poles = pole_bounds;
         const auto stated = std::span(at_standstill_).first(stated_slopes_);
         for (const auto edges : {std::span(at_edges_), std::span<const SampledSetting>()}) {
-          const RobustConstraints constraints(settings_, stated, edges, refined_goals_, threads_);
+          const RobustConstraints constraints({.plants = settings_,
+                                               .at_standstill = stated,
+                                               .at_edges = edges,
+                                               .corners = corners_},
+                                              refined_goals_, threads_);
           if (!constraints.stable(start)) continue;
           options.violations = violations_;
           found = refine_controller(start, constraints, options);
@@ -268,7 +288,7 @@ class Study {
 
  private:
   RobustConstraints constraints() const {
-    return {settings_, at_standstill_, {}, goals_, threads_};
+    return {{.plants = settings_, .at_standstill = at_standstill_}, goals_, threads_};
   }
 
   unsigned threads_;
@@ -280,7 +300,7 @@ class Study {
   std::vector<SampledSetting> settings_;  // nominal, then the members
   std::vector<SampledSetting> at_standstill_;
   std::size_t stated_slopes_ = 0;  // of these, the first: the constraint's own
-  std::vector<SampledSetting> at_edges_;
+  std::vector<SampledSetting> at_edges_, corners_;
 };
 
 ControllerAgainstLimit against(const DescribedController& named, const Study& study,

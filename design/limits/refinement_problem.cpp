@@ -28,7 +28,7 @@ constexpr double correction_fall = 0.7;
 constexpr double allowance_at_standstill = 1.15;
 // Penalty per logarithmic violation, above what a violation can gain.
 constexpr double slack_cost = 5.0, max_slack = 3.0;
-constexpr int evaluations_a_step = 15;
+constexpr int evaluations_a_step = 20;
 constexpr std::size_t plants_a_block = 6;
 constexpr Index figures_a_plant = 4;
 // A unit of the coordinates changes figures by about this fraction of themselves, over all plants.
@@ -86,8 +86,8 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
       rated_(moving_ + constraints.at_standstill().size()),
       limited_positions_(constraints.goals().position_peak ? rated_ : 0) {
   std::vector<const SampledSetting*> settings;
-  for (const auto group :
-       {constraints.plants(), constraints.at_standstill(), constraints.at_edges()}) {
+  for (const auto group : {constraints.plants(), constraints.at_standstill(),
+                           constraints.at_edges(), constraints.corners()}) {
     for (const SampledSetting& one : group) settings.push_back(&one);
   }
   spectra_.resize(settings.size());
@@ -95,17 +95,18 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
     spectra_[i] = sampled_spectrum(*settings[i], frequency_);
   });
   corrections_.setConstant(static_cast<Index>(all() + limited_positions_), peak_margin);
+  of_centre_ = corrections_;
   references_ = constraints.rms(start).array().log();
-  const auto moving = static_cast<Index>(moving_);
-  references_.head(moving).setConstant(references_.head(moving).maxCoeff());
-  references_.tail(references_.size() - moving).array() += std::log(allowance_at_standstill);
+  references_.tail(static_cast<Index>(rated_ - moving_)).array() +=
+      std::log(allowance_at_standstill);
   choose_directions();
 }
 
 double RefinementProblem::peak_goal(std::size_t i) const {
   const SampledLoopGoals& goals = constraints_.goals();
   if (i < moving_) return goals.sensitivity_peak;
-  return i < rated_ ? goals.standstill_peak : goals.edge_peak;
+  if (i < rated_) return goals.standstill_peak;
+  return i < rated_ + constraints_.at_edges().size() ? goals.edge_peak : goals.sensitivity_peak;
 }
 
 double RefinementProblem::objective(const VectorXd& rms) const {
@@ -122,7 +123,12 @@ bool RefinementProblem::correct(const Step& step, const VectorXd& exact, Correct
   const bool rose = (needed.array() > corrections_.array()).any();
   const double kept = how == Correction::afresh ? correction_fall : 1.0;
   corrections_ = (kept * corrections_).cwiseMax(needed);
+  if (how == Correction::afresh) of_centre_ = needed;
   return rose;
+}
+
+void RefinementProblem::ease_corrections() {
+  corrections_ = 0.5 * (corrections_ + of_centre_);
 }
 
 void RefinementProblem::choose_directions() {

@@ -47,8 +47,12 @@ class RefinementProblem {
   /// `more`: only upwards. `afresh`: also downwards, by at most 30 %. Returns whether one rose.
   bool correct(const Step& step, const Eigen::VectorXd& exact, Correction how);
 
-  /// ln of the largest ratio of an rms (as RobustConstraints::rms) to that of the start: of the
-  /// largest over the plants; at standstill of each to its own, with an allowance.
+  /// Halves what the corrections have beyond those of the centre, for a shorter step: next to the
+  /// centre it needs no more than the centre does.
+  void ease_corrections();
+
+  /// ln of the largest ratio of an rms (as RobustConstraints::rms) to that of the start, of each
+  /// plant to its own; at standstill with an allowance.
   double objective(const Eigen::VectorXd& rms) const;
 
  private:
@@ -69,11 +73,12 @@ class RefinementProblem {
   Eigen::ArrayXd frequency_;
   Eigen::VectorXd centre_;
   Eigen::MatrixXd directions_;            // columns: steps of the parameters of unit effect
-  std::vector<SampledSpectrum> spectra_;  // of the plants, at standstill, at edges
+  std::vector<SampledSpectrum> spectra_;  // of the plants, at standstill, at edges, of corners
   std::size_t moving_, rated_;            // the plants; these and those at standstill
   std::size_t limited_positions_;         // whose position loop's peak is limited: rated_ or 0
   Eigen::VectorXd references_;            // ln of the rms of the start, of those rated
   Eigen::VectorXd corrections_;           // ln, of the peaks
+  Eigen::VectorXd of_centre_;             // the corrections that the centre needs
 };
 
 }  // namespace boresight::design

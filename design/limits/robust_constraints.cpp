@@ -33,19 +33,15 @@ void validate(const SampledLoopGoals& goals) {
       goals.control_effort));
 }
 
-RobustConstraints::RobustConstraints(std::span<const SampledSetting> plants,
-                                     std::span<const SampledSetting> at_standstill,
-                                     std::span<const SampledSetting> at_edges,
-                                     const SampledLoopGoals& goals, unsigned threads)
-    : plants_(plants),
-      at_standstill_(at_standstill),
-      at_edges_(at_edges),
-      goals_(goals),
-      threads_(threads) {
+RobustConstraints::RobustConstraints(const ConstrainedPlants& plants, const SampledLoopGoals& goals,
+                                     unsigned threads)
+    : on_(plants), goals_(goals), threads_(threads) {
   validate(goals);
-  if (plants.empty()) throw InvalidInput("sampled loops: expected at least one plant, found none");
-  const Eigen::ArrayXd& frequency = plants.front().frequency();
-  for (const auto settings : {plants, at_standstill, at_edges}) {
+  if (on_.plants.empty()) {
+    throw InvalidInput("sampled loops: expected at least one plant, found none");
+  }
+  const Eigen::ArrayXd& frequency = on_.plants.front().frequency();
+  for (const auto settings : {on_.plants, on_.at_standstill, on_.at_edges, on_.corners}) {
     for (const SampledSetting& one : settings) {
       if (one.frequency().size() != frequency.size() || (one.frequency() != frequency).any()) {
         throw InvalidInput("sampled loops: expected the same frequencies in every setting");
@@ -56,7 +52,7 @@ RobustConstraints::RobustConstraints(std::span<const SampledSetting> plants,
 
 bool RobustConstraints::stable(const plant::StateSpace& controller) const {
   if (!(numerics::spectral_radius(controller.a) < 1.0)) return false;
-  for (const auto settings : {at_standstill_, at_edges_, plants_}) {
+  for (const auto settings : {on_.at_standstill, on_.at_edges, on_.corners, on_.plants}) {
     std::vector<double> radius(settings.size());
     numerics::for_each_index(radius.size(), threads_, [&](std::size_t i) {
       radius[i] = settings[i].spectral_radius(controller);
@@ -68,7 +64,7 @@ bool RobustConstraints::stable(const plant::StateSpace& controller) const {
 
 Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) const {
   const Eigen::ArrayXXcd response =
-      SampledSetting::controller_response(controller, plants_.front().frequency());
+      SampledSetting::controller_response(controller, on_.plants.front().frequency());
   struct Limited {
     const SampledSetting* setting;
     bool position;
@@ -78,12 +74,13 @@ Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) co
   const auto limit = [&](std::span<const SampledSetting> settings, bool position, double goal) {
     for (const SampledSetting& one : settings) limited.push_back({&one, position, goal});
   };
-  limit(plants_, false, goals_.sensitivity_peak);
-  limit(at_standstill_, false, goals_.standstill_peak);
-  limit(at_edges_, false, goals_.edge_peak);
+  limit(on_.plants, false, goals_.sensitivity_peak);
+  limit(on_.at_standstill, false, goals_.standstill_peak);
+  limit(on_.at_edges, false, goals_.edge_peak);
+  limit(on_.corners, false, goals_.sensitivity_peak);
   if (goals_.position_peak) {
-    limit(plants_, true, *goals_.position_peak);
-    limit(at_standstill_, true, goals_.standstill_peak);
+    limit(on_.plants, true, *goals_.position_peak);
+    limit(on_.at_standstill, true, goals_.standstill_peak);
   }
   Eigen::VectorXd ratios(static_cast<Eigen::Index>(limited.size()));
   numerics::for_each_index(limited.size(), threads_, [&](std::size_t i) {
@@ -105,28 +102,29 @@ double RobustConstraints::excess(const plant::StateSpace& controller,
   const double of_peak = peaks.maxCoeff() + reserve;
   if (of_peak > 0.0) return std::min(of_peak, unstable);
   if (!stable(controller)) return unstable;
-  std::vector<double> effort(plants_.size());
-  numerics::for_each_index(plants_.size(), threads_, [&](std::size_t i) {
-    effort[i] = plants_[i].control_effort(controller);
+  std::vector<double> effort(on_.plants.size());
+  numerics::for_each_index(on_.plants.size(), threads_, [&](std::size_t i) {
+    effort[i] = on_.plants[i].control_effort(controller);
   });
   const double largest = *std::ranges::max_element(effort);
   return std::min(std::max(of_peak, std::log(largest / goals_.control_effort) + 1e-6), unstable);
 }
 
 Eigen::VectorXd RobustConstraints::rms(const plant::StateSpace& controller) const {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(plants_.size() + at_standstill_.size()));
+  Eigen::VectorXd result(static_cast<Eigen::Index>(on_.plants.size() + on_.at_standstill.size()));
   numerics::for_each_index(static_cast<std::size_t>(result.size()), threads_, [&](std::size_t i) {
     const SampledSetting& setting =
-        i < plants_.size() ? plants_[i] : at_standstill_[i - plants_.size()];
+        i < on_.plants.size() ? on_.plants[i] : on_.at_standstill[i - on_.plants.size()];
     result[static_cast<Eigen::Index>(i)] = setting.boresight_rms(controller);
   });
   return result;
 }
 
 double RobustConstraints::largest_rms(const plant::StateSpace& controller) const {
-  std::vector<double> rms(plants_.size());
-  numerics::for_each_index(rms.size(), threads_,
-                           [&](std::size_t i) { rms[i] = plants_[i].boresight_rms(controller); });
+  std::vector<double> rms(on_.plants.size());
+  numerics::for_each_index(rms.size(), threads_, [&](std::size_t i) {
+    rms[i] = on_.plants[i].boresight_rms(controller);
+  });
   return *std::ranges::max_element(rms);
 }
 

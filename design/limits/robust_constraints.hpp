@@ -26,22 +26,28 @@ struct SampledLoopGoals {
 /// @throws InvalidInput for a peak not above 1 or an effort not above 0.
 void validate(const SampledLoopGoals& goals);
 
-/// The goals over plants: every loop is stable and within them, those at standstill are stable with
-/// their own peak, and so are those at an edge of the encoder; the controller is stable by itself.
-/// A limit on the position loop's peak holds on the plants and at standstill.
+/// The plants of RobustConstraints, by what is required there.
+struct ConstrainedPlants {
+  std::span<const SampledSetting> plants;              // every goal
+  std::span<const SampledSetting> at_standstill = {};  // standstill_peak, at both cuts
+  std::span<const SampledSetting> at_edges = {};       // edge_peak
+  std::span<const SampledSetting> corners = {};        // sensitivity_peak alone
+};
+
+/// The goals over plants: every loop is stable and within them, and the controller is stable by
+/// itself. A limit on the position loop's peak holds on the plants and at standstill.
 /// Refers to the plants; all have the same frequencies. Results do not depend on the number of
 /// threads.
 class RobustConstraints {
  public:
   /// @throws InvalidInput as validate, without plants and for plants of different frequencies.
-  RobustConstraints(std::span<const SampledSetting> plants,
-                    std::span<const SampledSetting> at_standstill,
-                    std::span<const SampledSetting> at_edges, const SampledLoopGoals& goals,
+  RobustConstraints(const ConstrainedPlants& plants, const SampledLoopGoals& goals,
                     unsigned threads);
 
-  std::span<const SampledSetting> plants() const { return plants_; }
-  std::span<const SampledSetting> at_standstill() const { return at_standstill_; }
-  std::span<const SampledSetting> at_edges() const { return at_edges_; }
+  std::span<const SampledSetting> plants() const { return on_.plants; }
+  std::span<const SampledSetting> at_standstill() const { return on_.at_standstill; }
+  std::span<const SampledSetting> at_edges() const { return on_.at_edges; }
+  std::span<const SampledSetting> corners() const { return on_.corners; }
   const SampledLoopGoals& goals() const { return goals_; }
   unsigned threads() const { return threads_; }
 
@@ -55,8 +61,8 @@ class RobustConstraints {
   double excess(const plant::StateSpace& controller, const Eigen::VectorXd& peaks) const;
 
   /// ln of the ratio of each peak to its goal: of |S| at the valve command on the plants, those at
-  /// standstill and those at edges, then of the position loop's, if limited, on the plants and
-  /// those at standstill. Without regard to stability.
+  /// standstill, those at edges and the corners, then of the position loop's, if limited, on the
+  /// plants and those at standstill. Without regard to stability.
   Eigen::VectorXd peaks(const plant::StateSpace& controller) const;
 
   /// Boresight rms (rad of motor) on the plants, then on those at standstill, with a controller
@@ -66,9 +72,7 @@ class RobustConstraints {
   double largest_rms(const plant::StateSpace& controller) const;
 
  private:
-  std::span<const SampledSetting> plants_;
-  std::span<const SampledSetting> at_standstill_;
-  std::span<const SampledSetting> at_edges_;
+  ConstrainedPlants on_;
   SampledLoopGoals goals_;
   unsigned threads_;
 };

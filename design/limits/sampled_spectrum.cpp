@@ -22,6 +22,9 @@ constexpr Index tachometer = 0, motor_torque = 2;
 constexpr double negligible = 1e-9;
 // p of the smooth peak: it exceeds the largest |S| by less than 1 %.
 constexpr double sharpness = 400.0;
+// Of ln |S| below the peak: values from there on count for less than 1e-8 of it. Without the limit
+// their powers are denormal numbers, which take most of the time of a search.
+constexpr double counted = 0.05;
 
 // V with V V' = Q to `negligible` of each diagonal element: the factor's columns fall off.
 MatrixXd leading_factor(const MatrixXd& q, const char* what) {
@@ -80,7 +83,8 @@ struct SmoothPeak {
 SmoothPeak smooth_peak(const ArrayXcd& values) {
   const Eigen::ArrayXd level = values.abs().log();
   const double top = level.maxCoeff();
-  const Eigen::ArrayXd powers = ((level - top) * sharpness).exp();
+  const Eigen::ArrayXd powers =
+      (level > top - counted).select(((level - top) * sharpness).exp(), 0.0);
   const double sum = powers.sum();
   return {top + std::log(sum) / sharpness, 0.5 / sum * powers};
 }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/sample_time.hpp>
+#include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/limit_study.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
@@ -28,6 +29,9 @@ PointingLimit pointing_limit_of(const Mission& mission, const TuningStudy& secti
     options.violations = [&](const plant::StateSpace& controller, int enough) {
       return limit_cycle_violations(mission, problem, controller, enough, threads);
     };
+  }
+  if (ensemble.source == EnsembleSource::ranges && !ensemble.members.empty()) {
+    options.corners = corner_members(mission);
   }
   return pointing_limit(problem, section.goals, ensemble.members, controllers, options);
 }

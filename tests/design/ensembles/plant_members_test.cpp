@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
@@ -20,6 +23,39 @@ TEST(PlantMembers, AreCornersAndAHypercubeThatRepeatsWithItsSeed) {
   const auto again = plant_members(mission, 1), other = plant_members(mission, 2);
   EXPECT_EQ(members[9].plant.drive.leakage_rate, again[9].plant.drive.leakage_rate);
   EXPECT_NE(members[9].plant.drive.leakage_rate, other[9].plant.drive.leakage_rate);
+}
+
+TEST(PlantMembers, CornersCombineTheEndsOfWhatVariesWithLeastDamping) {
+  Mission mission = reference::demo_mission();
+  const double leakage = mission.antenna.drive.leakage_rate;
+  mission.uncertainty.ranges = {{0.9, 1.1}, {0.8, 1.2}, {0.3 * leakage, leakage}, {2.0, 10.0}};
+  mission.uncertainty.antenna_inertia = 0.1;
+  const auto corners = corner_members(mission);
+  ASSERT_EQ(corners.size(), 8U);
+  const auto own = linear_plant(mission.antenna);
+  const auto approximately = [](double left, double right) {
+    return std::abs(left - right) < 1e-9 * std::abs(right);
+  };
+  int soft_oil = 0, soft_structure = 0;
+  double lightest = 1e9, heaviest = 0.0;
+  for (const auto& [name, plant] : corners) {
+    EXPECT_DOUBLE_EQ(plant.drive.viscous_friction, 2.0 + 0.05 * 8.0);
+    EXPECT_NEAR(plant.drive.leakage_rate, (0.3 + 0.05 * 0.7) * leakage, 1e-12 * leakage);
+    soft_oil +=
+        static_cast<int>(approximately(plant.drive.oil_stiffness, 0.82 * own.drive.oil_stiffness));
+    soft_structure +=
+        static_cast<int>(plant.structure.gear_stiffness < own.structure.gear_stiffness);
+    lightest = std::min(lightest, plant::antenna_inertia(plant.structure));
+    heaviest = std::max(heaviest, plant::antenna_inertia(plant.structure));
+  }
+  EXPECT_EQ(soft_oil, 4);
+  EXPECT_EQ(soft_structure, 4);
+  // 90 % of the lognormal lie between the ends: exp(2 x 1.6449 x 0.1).
+  EXPECT_NEAR(heaviest / lightest, std::exp(2.0 * 1.644854 * 0.1), 1e-6);
+
+  mission.uncertainty.antenna_inertia = 0.0;
+  mission.uncertainty.ranges.oil_stiffness = {1.0, 1.0};
+  EXPECT_EQ(corner_members(mission).size(), 2U);
 }
 
 }  // namespace

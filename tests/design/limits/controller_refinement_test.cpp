@@ -37,9 +37,9 @@ SampledSetting setting_of(const TrackingProblem& problem, const plant::AntennaPl
 // linear controller of that effort is better (EffortBound).
 TEST(ControllerRefinement, ComesNearTheBoundWhereItIsAttainable) {
   const TrackingProblem problem = problem_with_torque_noise();
-  const std::vector<SampledSetting> itself{setting_of(problem, problem.plant)}, none;
+  const std::vector<SampledSetting> itself{setting_of(problem, problem.plant)};
   const SampledLoopGoals goals{20.0, 0.6, 3.0};
-  const RobustConstraints constraints(itself, none, none, goals, 1);
+  const RobustConstraints constraints({itself}, goals, 1);
   // With half the effort and a limit on its peak.
   const auto lqg = search_limited_lqg(itself.front(), {2.0, 0.3, 3.0});
   ASSERT_TRUE(lqg.found);
@@ -58,7 +58,7 @@ TEST(ControllerRefinement, ComesNearTheBoundWhereItIsAttainable) {
 
 TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
   const TrackingProblem problem = problem_with_torque_noise();
-  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, held, none;
+  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, held;
   for (const double factor : {0.96, 1.04}) {
     plant::AntennaPlant other = problem.plant;
     for (auto& mode : other.structure.modes) mode.stiffness *= factor * factor;
@@ -67,7 +67,7 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
   plant::AntennaPlant stuck = problem.plant;
   stuck.drive.viscous_friction = 300.0;
   held.push_back(setting_of(problem, stuck));
-  const RobustConstraints constraints(plants, held, none, {}, 1);
+  const RobustConstraints constraints({plants, held}, {}, 1);
   const auto lqg = search_robust_lqg(plants.front(), constraints);
   ASSERT_TRUE(lqg.found);
   const auto found = refine_controller(lqg.controller, constraints, {.steps = 12});
@@ -79,7 +79,7 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
   EXPECT_LE(held.front().boresight_rms(found.controller),
             1.16 * held.front().boresight_rms(lqg.controller));
 
-  const RobustConstraints threaded(plants, held, none, {}, 3);
+  const RobustConstraints threaded({plants, held}, {}, 3);
   const auto again = refine_controller(lqg.controller, threaded, {.steps = 12});
   EXPECT_EQ(again.controller.a, found.controller.a);
   EXPECT_EQ(again.controller.b, found.controller.b);
@@ -96,7 +96,7 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
 // Loops on the problem's own plant with the poles of an LQG added, for the search to use.
 struct LoopsWithIdlePoles {
   TrackingProblem problem = problem_with_torque_noise();
-  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)}, none;
+  std::vector<SampledSetting> plants{setting_of(problem, problem.plant)};
   plant::StateSpace start;
 
   explicit LoopsWithIdlePoles(const PoleBounds& poles) {
@@ -116,15 +116,17 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   const PoleBounds poles{.slowest = 0.3};
   const LoopsWithIdlePoles loops(poles);
   const double effort = loops.plants.front().control_effort(loops.start);
-  const RobustConstraints constraints(loops.plants, loops.none, loops.none, {2.5, 0.9 * effort}, 1);
+  const RobustConstraints constraints({loops.plants}, {2.5, 0.9 * effort}, 1);
   ASSERT_GT(constraints.excess(loops.start), 0.05);
   const auto found = refine_controller(loops.start, constraints, {.steps = 30, .poles = poles});
-  EXPECT_TRUE(found.feasible);
+  ASSERT_TRUE(found.feasible);
+  ASSERT_GT(found.steps, 4);
   EXPECT_LE(constraints.excess(found.controller), 0.0);
   EXPECT_LT(found.boresight_rms, loops.rms(loops.start));
   EXPECT_GT(bounds_of(found.controller).slowest, 0.99 * poles.slowest);
 
-  // Violations are counted at the last step, then at earlier ones; the result has the fewest.
+  // Violations are counted at the last step, then at earlier ones until there are none, then
+  // between.
   std::vector<double> evaluated;
   std::vector<int> limits;
   const auto with = [&](const std::function<bool(double)>& violated) {
@@ -137,18 +139,19 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
          .violations = [&, violated](const plant::StateSpace& controller, int enough) {
            evaluated.push_back(loops.rms(controller));
            limits.push_back(enough);
-           return violated(evaluated.back()) ? 3 : 0;
+           return violated(evaluated.back()) ? std::min(3, enough) : 0;
          }});
   };
-  const double bound = 1.01 * found.boresight_rms;
+  const double bound = 1.003 * found.boresight_rms;
   const auto earlier = with([&](double rms) { return rms < bound; });
-  EXPECT_TRUE(earlier.feasible);
+  ASSERT_TRUE(earlier.feasible);
   EXPECT_LT(earlier.steps, found.steps);
+  ASSERT_GT(evaluated.size(), 1U);
   EXPECT_EQ(evaluated.front(), found.boresight_rms);
-  EXPECT_TRUE(std::ranges::is_sorted(evaluated));
-  EXPECT_EQ(earlier.boresight_rms, evaluated.back());
   EXPECT_GE(earlier.boresight_rms, bound);
   EXPECT_LE(constraints.excess(earlier.controller), 0.0);
+  // The last of the evaluated steps without violations, which as objectives fall is the best.
+  for (const double rms : evaluated) EXPECT_TRUE(rms < bound || rms >= earlier.boresight_rms);
   EXPECT_EQ(with([](double) { return false; }).controller.b, found.controller.b);
   EXPECT_EQ(evaluated.size(), 1U);
   EXPECT_EQ(with([](double) { return true; }).controller.b, found.controller.b);
@@ -170,7 +173,7 @@ TEST(ControllerRefinement, LimitsThePositionLoopAndTheDampingOfTheController) {
   };
   SampledLoopGoals goals{2.5, 0.6};
   const auto refined = [&] {
-    return refine_controller(loops.start, {loops.plants, loops.none, loops.none, goals, 1},
+    return refine_controller(loops.start, {{loops.plants}, goals, 1},
                              {.steps = 40, .poles = poles});
   };
   const auto free = refined();

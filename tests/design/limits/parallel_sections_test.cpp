@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -208,6 +209,32 @@ TEST(ParallelSections, IdlePolesChangeNothingAndAreFastEnough) {
   EXPECT_NEAR(poles.real().maxCoeff(), 1.0 - 1.1 * 0.2 * 0.02, 1e-9);
   const ParallelSections sections(found, {.slowest = 0.2});
   EXPECT_LT(sections.stability(sections.parameters()).conditions.maxCoeff(), 0.0);
+}
+
+// Those that are too fast for their damping are left out: 2 (0.999 - 0.5)/0.02 s = 49.9 rad/s.
+TEST(ParallelSections, IdlePairsChangeNothingAndHaveTheirFrequencyAndDamping) {
+  const auto found = with_idle_pairs(controller(), std::array{2.0, 20.0, 49.0, 50.0}, 0.5);
+  EXPECT_EQ(found.a.rows(), 5 + 6);
+  const auto expected = SampledSetting::controller_response(controller(), frequency());
+  const auto response = SampledSetting::controller_response(found, frequency());
+  EXPECT_LT((response - expected).abs().maxCoeff(), 1e-12 * expected.abs().maxCoeff());
+  const Eigen::MatrixXd added = found.a.bottomRightCorner(6, 6);
+  const Eigen::VectorXcd poles = numerics::eigen_decomposition(added).values;
+  for (const double frequency : {2.0, 20.0, 49.0}) {
+    EXPECT_EQ(std::ranges::count_if(poles,
+                                    [&](const std::complex<double>& pole) {
+                                      return std::abs(std::abs(pole - 1.0) / 0.02 - frequency) <
+                                             1e-9 * frequency;
+                                    }),
+              2)
+        << frequency;
+  }
+  plant::StateSpace alone = controller();
+  alone.a = added;
+  alone.b = Eigen::MatrixXd::Zero(6, alone.b.cols());
+  alone.c = Eigen::MatrixXd::Ones(1, 6);
+  alone.states.assign(found.states.end() - 6, found.states.end());
+  EXPECT_NEAR(bounds_of(alone).damping, 0.5, 1e-9);
 }
 
 TEST(ParallelSections, RefuseWhatIsNoStableSampledController) {

@@ -60,13 +60,13 @@ TEST(RobustConstraints, ExcessIsTheLargestRatioToAGoal) {
   ASSERT_LT(held.front().spectral_radius(controller), 1.0);
   ASSERT_GT(held_peak, 1.31);
   const auto excess = [&](const SampledLoopGoals& goals) {
-    return RobustConstraints(moving, held, none, goals, 1).excess(controller);
+    return RobustConstraints({moving, held, none}, goals, 1).excess(controller);
   };
   EXPECT_LE(excess({1.01 * peak, 1.01 * effort, 1.01 * held_peak}), 0.0);
   EXPECT_NEAR(excess({peak / 1.1, 2.0 * effort, 2.0 * held_peak}), std::log(1.1), 2e-3);
   EXPECT_NEAR(excess({2.0 * peak, effort / 1.2, 2.0 * held_peak}), std::log(1.2), 2e-3);
   EXPECT_NEAR(excess({2.0 * peak, 2.0 * effort, held_peak / 1.3}), std::log(1.3), 2e-3);
-  EXPECT_DOUBLE_EQ(RobustConstraints(moving, held, none, {}, 1).largest_rms(controller),
+  EXPECT_DOUBLE_EQ(RobustConstraints({moving, held, none}, {}, 1).largest_rms(controller),
                    moving.front().boresight_rms(controller));
 }
 
@@ -88,9 +88,9 @@ TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
       at_edges.front()
           .highest_peak(SampledSetting::controller_response(controller, plants.frequency))
           .magnitude;
-  EXPECT_NEAR(
-      RobustConstraints(moving, none, at_edges, {1e3, 1e3, 1e3, peak / 1.2}, 1).excess(controller),
-      std::log(1.2), 2e-3);
+  EXPECT_NEAR(RobustConstraints({moving, none, at_edges}, {1e3, 1e3, 1e3, peak / 1.2}, 1)
+                  .excess(controller),
+              std::log(1.2), 2e-3);
   const double radius = at_edges.front().spectral_radius(controller);
   const auto encoder = std::ranges::find(controller.inputs, "encoder") - controller.inputs.begin();
   controller.b.col(encoder) *= 1.4;
@@ -103,7 +103,7 @@ TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
   // So large a gain that the loop is unstable.
   const std::vector<SampledSetting> unstable{setting(50.0)};
   const auto with = [&](const std::vector<SampledSetting>& edges) {
-    return RobustConstraints(moving, none, edges, {1e9, 1e9, 1e9, 1e9}, 1);
+    return RobustConstraints({moving, none, edges}, {1e9, 1e9, 1e9, 1e9}, 1);
   };
   EXPECT_TRUE(with(none).stable(controller));
   EXPECT_FALSE(with(unstable).stable(controller));
@@ -129,7 +129,7 @@ TEST(RobustConstraints, ThePositionLoopIsCutAtTheEncoderAlone) {
   EXPECT_NEAR(moving.front().highest_position_peak(response).magnitude, peak, 2e-3 * peak);
 
   const SampledLoopGoals goals{1e3, 1e3, 10.0 * at_rest, 1e3, peak / 1.1};
-  const RobustConstraints limited(moving, held, none, goals, 1);
+  const RobustConstraints limited({moving, held, none}, goals, 1);
   EXPECT_NEAR(limited.excess(controller), std::log(1.1), 4e-3);
   EXPECT_EQ(limited.excess(controller, limited.peaks(controller)), limited.excess(controller));
   const Eigen::VectorXd ratios = limited.peaks(controller);
@@ -139,7 +139,8 @@ TEST(RobustConstraints, ThePositionLoopIsCutAtTheEncoderAlone) {
               1e-12);
   EXPECT_NEAR(ratios[2], std::log(1.1), 3e-3);
   EXPECT_NEAR(ratios[3], std::log(0.1), 3e-3);
-  EXPECT_EQ(RobustConstraints(moving, held, none, {1e3, 1e3, 1e3}, 1).peaks(controller).size(), 2);
+  EXPECT_EQ(RobustConstraints({moving, held, none}, {1e3, 1e3, 1e3}, 1).peaks(controller).size(),
+            2);
 
   const Eigen::VectorXd rms = limited.rms(controller);
   ASSERT_EQ(rms.size(), 2);
@@ -154,7 +155,7 @@ TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
   controller.c *= -1.0;
   controller.d *= -1.0;
   ASSERT_GT(moving.front().spectral_radius(controller), 1.0);
-  EXPECT_EQ(RobustConstraints(moving, none, none, {1e9, 1e9, 1e9}, 2).excess(controller), 3.0);
+  EXPECT_EQ(RobustConstraints({moving, none, none}, {1e9, 1e9, 1e9}, 2).excess(controller), 3.0);
 }
 
 TEST(RobustConstraints, AControllerThatIsUnstableByItselfExceedsThemToo) {
@@ -164,7 +165,7 @@ TEST(RobustConstraints, AControllerThatIsUnstableByItselfExceedsThemToo) {
       moving.front(), {.command_weight = 0.05, .input_noise = 1e-3, .friction_torque = 20.0});
   ASSERT_LT(moving.front().spectral_radius(controller), 1.0);
   ASSERT_GT(numerics::spectral_radius(controller.a), 1.0);
-  EXPECT_EQ(RobustConstraints(moving, none, none, {1e9, 1e9, 1e9}, 1).excess(controller), 3.0);
+  EXPECT_EQ(RobustConstraints({moving, none, none}, {1e9, 1e9, 1e9}, 1).excess(controller), 3.0);
 }
 
 TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
@@ -173,8 +174,9 @@ TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
   const auto constraints = [&none](const std::vector<SampledSetting>& moving,
                                    const std::vector<SampledSetting>& held,
                                    const SampledLoopGoals& goals) {
-    return
-        [&moving, &held, &none, goals] { (void)RobustConstraints(moving, held, none, goals, 1); };
+    return [&moving, &held, &none, goals] {
+      (void)RobustConstraints({moving, held, none}, goals, 1);
+    };
   };
   EXPECT_THAT(constraints(none, none, {}),
               ThrowsMessage<InvalidInput>(HasSubstr("at least one plant")));

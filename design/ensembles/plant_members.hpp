@@ -27,10 +27,10 @@ struct PlantEnsemble {
 /// @throws InvalidInput as plant::changed and plant::linear_plant.
 std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t seed);
 
-/// Plants at the corners of PlantDistribution::of_ranges: every combination of both ends of
-/// structure frequency, oil stiffness and antenna inertia, of those that vary, with leakage and
-/// friction at their lower ends, where they damp least. The ends are the 5 % and 95 % quantiles.
-/// Unlike plant_members they vary the inertia, and have several inputs at an end.
+/// Plants with several inputs of PlantDistribution::of_ranges at an end: every combination of both
+/// ends of structure frequency, oil stiffness and antenna inertia, of those that vary: 1 to 8
+/// plants. Leakage and friction are at their lower ends, which damp least, other inputs at their
+/// medians. The ends are the 5 % and 95 % quantiles.
 /// @throws InvalidInput as plant::changed and plant::linear_plant.
 std::vector<EnsembleMember> corner_members(const Mission& mission);
 

@@ -110,7 +110,7 @@ class Refinement {
     if (path.empty()) return found;
     int least = std::numeric_limits<int>::max();
     std::size_t best = path.size() - 1, place = best, stride = first_stride;
-    std::size_t later = path.size();  // the first known step with violations, after `best`
+    std::size_t later = path.size();  // the next evaluated step after `best`: it has violations
     for (int i = 0; i < max_evaluated; ++i) {
       const int violations = options_.violations(path[place].controller, std::max(least, 1));
       if (violations == 0 || violations < least) best = place;

@@ -11,16 +11,18 @@ namespace boresight::design {
 using CountViolations = std::function<int(const plant::StateSpace&, int enough)>;
 
 struct RefinementOptions {
-  /// Steps of the search. Each takes about 0.3 s of computing with 31 plants and order 31.
+  /// Steps of the search. Each takes about 0.2 s of computing with 46 plants and order 31.
   int steps = 24;
   /// Bounds of the controller's poles; the start's own where it violates them. An error that a slew
   /// leaves in a slow pole decays as slowly.
   PoleBounds poles = {};
   /// Number of violations of a requirement that is too expensive to evaluate at every step, such as
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
-  /// at the steps 2, 6, 14 and so on before it until one has none, then between that one and the
-  /// next with some by halving the interval; 10 times at most. The result is the last step without,
-  /// or that with the fewest. Empty: the last step.
+  /// 2, 6, 14 and so on steps before it, down to the first, until a step has none. The interval
+  /// from that step to the next evaluated one with violations is then halved. At most 10
+  /// evaluations; `enough` is the least count so far, at least 1. The result is the last step found
+  /// without violations, else the one with the fewest, the latest of several. Empty, or without an
+  /// accepted step that meets every constraint: the last step.
   CountViolations violations = {};
 };
 
@@ -36,10 +38,11 @@ struct RefinementResult {
 /// with less rms under the constraints. All parameters of the controller (ParallelSections) vary. A
 /// start that violates constraints is first led to where it meets them.
 ///
-/// The objective is the largest ratio of an rms to that of the start
+/// The objective is the largest ratio of an rms to that of the start on the same plant
 /// (RefinementProblem::objective). It includes the rms on each plant at standstill, which
 /// represents wind with much friction; otherwise the result would suit the frictionless antenna
-/// only. Plants at an edge of the encoder and corners only limit |S|.
+/// only. Plants at an edge of the encoder and corners must be stable and limit |S| at the valve, no
+/// more.
 ///
 /// Each step is a search by sequential quadratic programming within a box about the present
 /// controller (RefinementProblem). A step is accepted if the exact quantities of RobustConstraints

@@ -83,9 +83,10 @@ PoleBounds bounds_of(const plant::StateSpace& controller);
 plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
                                   const plant::StateSpace& other, const PoleBounds& bounds);
 
-/// The same with pairs of poles of these frequencies (rad/s, their size) and this damping ratio
-/// (PoleBounds::damping). Pairs that are too fast for it at the controller's sample time are left
-/// out. @throws InvalidInput without the output valve_command.
+/// The same with pairs of poles of these frequencies (rad/s, above 0; their magnitude in delta) and
+/// this damping ratio (PoleBounds::damping, above 0). Pairs that are too fast for that damping at
+/// the controller's sample time are left out. @throws InvalidInput without the output
+/// valve_command.
 plant::StateSpace with_idle_pairs(const plant::StateSpace& controller,
                                   std::span<const double> frequencies, double damping);
 

@@ -51,7 +51,7 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 }
 
 // Fraction of the allowed Ms - 1 that the design uses. The rest is a reserve for plants other than
-// members and corners: 99 % of sampled plants then meet all constraints (docs/limit-cycles.md).
+// members and corners (docs/limit-cycles.md: what part of sampled plants keeps the constraints).
 constexpr double used_of_peak = 0.75;
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.
@@ -63,9 +63,16 @@ constexpr std::array<double, 3> further_frequencies{0.55, 1.5, 3.75};
 constexpr double damping_of_further_pairs = 0.5;
 
 std::vector<double> further_pairs(const plant::AntennaPlant& plant) {
-  const double mode = two_pi * plant::hydraulic_mode(plant::plant_modes(plant)).frequency;
   std::vector<double> result;
-  for (const double factor : further_frequencies) result.push_back(factor * mode);
+  try {
+    const double mode = two_pi * plant::hydraulic_mode(plant::plant_modes(plant)).frequency;
+    for (const double factor : further_frequencies) {
+      const double frequency = factor * mode;
+      if (damping_of_further_pairs * frequency > pole_bounds.slowest) result.push_back(frequency);
+    }
+  } catch (const NumericalFailure&) {
+    result.clear();  // without a hydraulic mode there is nothing to place them by
+  }
   return result;
 }
 
@@ -90,6 +97,15 @@ class Study {
     std::vector<EnsembleMember> all = members;
     all.insert(all.end(), held.begin(), held.end());
     all.insert(all.end(), options.corners.begin(), options.corners.end());
+    std::vector<EnsembleMember> at_edges;
+    if (goals.standstill) {
+      for (const Standstill::Edge& edge : goals.standstill->edges) {
+        at_edges.push_back(
+            {fmt::format("edge, friction {:.3g} N.m.s/rad", edge.friction), problem.plant});
+        at_edges.back().plant.drive.viscous_friction = edge.friction;
+      }
+    }
+    all.insert(all.end(), at_edges.begin(), at_edges.end());
     const Eigen::ArrayXd frequency = peak_frequencies(problem, all, options.sample_time);
     const auto add = [&](std::vector<SampledSetting>& to, const std::string& name,
                          const plant::AntennaPlant& plant) {
@@ -104,12 +120,10 @@ class Study {
     refined_goals_.position_peak = goals.sensitivity_peak[2];
     if (!goals.standstill) return;
     stated_slopes_ = goals.standstill->friction.size();
-    for (const Standstill::Edge& edge : goals.standstill->edges) {
-      plant::AntennaPlant plant = problem.plant;
-      plant.drive.viscous_friction = edge.friction;
-      at_edges_.emplace_back(fmt::format("edge, friction {:.3g} N.m.s/rad", edge.friction), plant,
-                             filter_, problem.noise, options.sample_time, frequency,
-                             edge.encoder_gain);
+    for (std::size_t i = 0; i < at_edges.size(); ++i) {
+      at_edges_.emplace_back(at_edges[i].name, at_edges[i].plant, filter_, problem.noise,
+                             options.sample_time, frequency,
+                             goals.standstill->edges[i].encoder_gain);
     }
   }
 
@@ -168,17 +182,23 @@ class Study {
         options.steps = steps_from_loops;
         options.poles = pole_bounds;
         const auto stated = std::span(at_standstill_).first(stated_slopes_);
-        for (const auto edges : {std::span(at_edges_), std::span<const SampledSetting>()}) {
-          const RobustConstraints constraints({.plants = settings_,
-                                               .at_standstill = stated,
-                                               .at_edges = edges,
-                                               .corners = corners_},
-                                              refined_goals_, threads_);
+        options.violations = violations_;
+        struct Further {
+          std::span<const SampledSetting> edges, corners;
+          bool operator==(const Further& other) const {
+            return edges.size() == other.edges.size() && corners.size() == other.corners.size();
+          }
+        };
+        std::vector<Further> attempts{{at_edges_, corners_}, {at_edges_, {}}, {{}, {}}};
+        attempts.erase(std::unique(attempts.begin(), attempts.end()), attempts.end());
+        for (const auto& [edges, corners] : attempts) {
+          const RobustConstraints constraints(
+              {.plants = settings_, .at_standstill = stated, .at_edges = edges, .corners = corners},
+              refined_goals_, threads_);
           if (!constraints.stable(start)) continue;
-          options.violations = violations_;
           found = refine_controller(start, constraints, options);
           limit.refined_from = start_->name;
-          if (found->feasible || at_edges_.empty()) break;
+          if (found->feasible) break;
         }
       }
       if (!found) {

@@ -86,15 +86,15 @@ struct PointingLimit {
   /// largest), of reduced order. None without members.
   std::optional<LimitedLqg> robustified;
   /// A controller refined by gradient (refine_controller). It starts from
-  /// PointingLimitOptions::start with the poles of the robustified LQG and three more pairs added.
-  /// Its constraints: Ms at the valve, with a reserve for plants beyond the members, also on
-  /// PointingLimitOptions::corners; Ms of the position loop, cut at the encoder; the effort;
-  /// stability and both peaks at the friction slopes of Constraints::standstill; |S| at its edges
-  /// of the encoder, unless the start is unstable there or no step meets that; and bounds of the
-  /// poles. Of the steps evaluated it has the fewest PointingLimitOptions::violations. If no start
-  /// is given, or it has integrals or is unstable somewhere, it starts from the robustified LQG,
-  /// under that one's constraints. None without that LQG, where poles are repeated, and where no
-  /// step meets every constraint.
+  /// PointingLimitOptions::start with the poles of the robustified LQG added, and up to three more
+  /// pairs about the hydraulic mode. Its constraints: Ms at the valve on members and corners, with
+  /// a reserve for other plants; Ms of the position loop, cut at the encoder; the effort; stability
+  /// and both peaks at the friction slopes of Constraints::standstill; |S| at its edges of the
+  /// encoder; and bounds of the poles. The corners, then also the edges, are left out where the
+  /// start is unstable there or no step meets them. Of the steps evaluated it has the fewest
+  /// PointingLimitOptions::violations. If no start is given, or it has integrals or is unstable
+  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
+  /// LQG, where poles are repeated, and where no step meets every constraint.
   std::optional<SampledDesign> refined;
   /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
   std::string refined_from;
@@ -120,7 +120,8 @@ struct PointingLimitOptions {
   unsigned threads = 1;
   /// Where the refinement starts.
   std::optional<DescribedController> start = std::nullopt;
-  /// Plants on which a refinement from there also keeps Ms at the valve within its goal.
+  /// Plants on which a refinement from there must also be stable and keep Ms at the valve, with the
+  /// same reserve as on the members. Every peak is read at their frequencies too.
   std::vector<EnsembleMember> corners = {};
   /// RefinementOptions::violations of a refinement from there.
   CountViolations violations = {};

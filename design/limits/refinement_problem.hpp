@@ -13,10 +13,11 @@
 
 namespace boresight::design {
 
-/// The optimisation problem of one step of refine_controller: minimise the largest rms within the
-/// constraints over all parameters of a controller (ParallelSections). Values and gradients are the
-/// figures of SampledSpectrum on every plant. These are evaluated at discrete frequencies;
-/// correct() adds the difference to the exact peaks.
+/// The optimisation problem of one step of refine_controller: minimise the largest ratio of an rms
+/// to that of the start on the same plant, within the constraints, over all parameters of a
+/// controller (ParallelSections). Values and gradients are the figures of SampledSpectrum on every
+/// plant. These are evaluated at discrete frequencies; correct() adds the difference to the exact
+/// peaks.
 class RefinementProblem {
  public:
   /// `bounds`: of ParallelSections. Refers to the constraints. `start` is stable on all plants; its
@@ -44,11 +45,13 @@ class RefinementProblem {
 
   enum class Correction { afresh, more };
   /// Sets the corrections of the peaks from the exact peaks of a step (RobustConstraints::peaks).
-  /// `more`: only upwards. `afresh`: also downwards, by at most 30 %. Returns whether one rose.
+  /// `more`: only upwards. `afresh`, of the step that becomes the centre: also downwards, by at
+  /// most 30 %. Returns whether one rose.
   bool correct(const Step& step, const Eigen::VectorXd& exact, Correction how);
 
-  /// Halves what the corrections have beyond those of the centre, for a shorter step: next to the
-  /// centre it needs no more than the centre does.
+  /// Halves the excess of each correction over the one that the centre needs (before the first
+  /// `afresh`: over the least). For a box of half the size: the closer a step is to the centre, the
+  /// closer its corrections are to the centre's.
   void ease_corrections();
 
   /// ln of the largest ratio of an rms (as RobustConstraints::rms) to that of the start, of each

@@ -11,7 +11,7 @@ namespace boresight::design {
 
 /// Constraints that a sampled controller must meet on every plant.
 struct SampledLoopGoals {
-  double sensitivity_peak = 2.0;  // largest |S| at the valve command
+  double sensitivity_peak = 2.0;  // largest |S| at the valve command, on plants and corners
   double control_effort = 0.6;    // rad/s rms of the noise-driven command
   /// Largest |S| at the valve command on the plants at standstill (Constraints::standstill).
   double standstill_peak = 3.0;
@@ -26,12 +26,14 @@ struct SampledLoopGoals {
 /// @throws InvalidInput for a peak not above 1 or an effort not above 0.
 void validate(const SampledLoopGoals& goals);
 
-/// The plants of RobustConstraints, by what is required there.
+/// The plants of RobustConstraints. Every loop must be stable, and within:
 struct ConstrainedPlants {
-  std::span<const SampledSetting> plants;              // every goal
-  std::span<const SampledSetting> at_standstill = {};  // standstill_peak, at both cuts
-  std::span<const SampledSetting> at_edges = {};       // edge_peak
-  std::span<const SampledSetting> corners = {};        // sensitivity_peak alone
+  /// sensitivity_peak, position_peak, control_effort.
+  std::span<const SampledSetting> plants;
+  /// standstill_peak; with a position_peak, of the position loop too.
+  std::span<const SampledSetting> at_standstill = {};
+  std::span<const SampledSetting> at_edges = {};  // edge_peak
+  std::span<const SampledSetting> corners = {};   // sensitivity_peak
 };
 
 /// The goals over plants: every loop is stable and within them, and the controller is stable by

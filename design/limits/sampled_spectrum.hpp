@@ -41,8 +41,8 @@ struct LoopFigure {
 struct LoopFigures {
   LoopFigure boresight_rms;   // rad of motor
   LoopFigure control_effort;  // rad/s
-  /// Of |S| at the valve command: ln(sum |S|^p)/p, a smooth upper bound of ln Ms at the
-  /// frequencies.
+  /// Of |S| at the valve command: ln(sum |S|^p)/p over the frequencies where it is next to
+  /// its largest, a smooth upper bound of ln Ms at the frequencies.
   LoopFigure sensitivity_peak;
   /// The same of |S| with the loop cut at the encoder alone, tachometer and torque fed back: of the
   /// position loop.

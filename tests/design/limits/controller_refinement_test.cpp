@@ -129,21 +129,21 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   // between.
   std::vector<double> evaluated;
   std::vector<int> limits;
-  const auto with = [&](const std::function<bool(double)>& violated) {
+  const auto with = [&](const std::function<int(double)>& violations) {
     evaluated.clear();
     limits.clear();
     return refine_controller(
         loops.start, constraints,
         {.steps = 30,
          .poles = poles,
-         .violations = [&, violated](const plant::StateSpace& controller, int enough) {
+         .violations = [&, violations](const plant::StateSpace& controller, int enough) {
            evaluated.push_back(loops.rms(controller));
            limits.push_back(enough);
-           return violated(evaluated.back()) ? std::min(3, enough) : 0;
+           return std::min(violations(evaluated.back()), enough);
          }});
   };
   const double bound = 1.003 * found.boresight_rms;
-  const auto earlier = with([&](double rms) { return rms < bound; });
+  const auto earlier = with([&](double rms) { return rms < bound ? 3 : 0; });
   ASSERT_TRUE(earlier.feasible);
   EXPECT_LT(earlier.steps, found.steps);
   ASSERT_GT(evaluated.size(), 1U);
@@ -152,13 +152,20 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   EXPECT_LE(constraints.excess(earlier.controller), 0.0);
   // The last of the evaluated steps without violations, which as objectives fall is the best.
   for (const double rms : evaluated) EXPECT_TRUE(rms < bound || rms >= earlier.boresight_rms);
-  EXPECT_EQ(with([](double) { return false; }).controller.b, found.controller.b);
+  EXPECT_EQ(with([](double) { return 0; }).controller.b, found.controller.b);
   EXPECT_EQ(evaluated.size(), 1U);
-  EXPECT_EQ(with([](double) { return true; }).controller.b, found.controller.b);
+  EXPECT_EQ(with([](double) { return 3; }).controller.b, found.controller.b);
   EXPECT_GT(evaluated.size(), 1U);
   // As many as the best step has need not be counted further.
   EXPECT_GT(limits.front(), 1000);
   EXPECT_EQ(limits[1], 3);
+  // Only the last step has some: the one before it is found between, by halving.
+  const auto before_last = with([&](double rms) { return rms <= found.boresight_rms ? 3 : 0; });
+  EXPECT_EQ(before_last.steps, found.steps - 1);
+  EXPECT_EQ(evaluated.size(), 3U);
+  // None is without: the one with the fewest, though it is not the last.
+  EXPECT_GE(with([&](double rms) { return rms < bound ? 3 : 1; }).boresight_rms, bound);
+  EXPECT_LE(evaluated.size(), 10U);
 }
 
 // The structure is less damped than the controller's poles may be.

@@ -229,12 +229,11 @@ TEST(ParallelSections, IdlePairsChangeNothingAndHaveTheirFrequencyAndDamping) {
               2)
         << frequency;
   }
-  plant::StateSpace alone = controller();
-  alone.a = added;
-  alone.b = Eigen::MatrixXd::Zero(6, alone.b.cols());
-  alone.c = Eigen::MatrixXd::Ones(1, 6);
-  alone.states.assign(found.states.end() - 6, found.states.end());
-  EXPECT_NEAR(bounds_of(alone).damping, 0.5, 1e-9);
+  plant::StateSpace one = controller();
+  for (Eigen::Index k = 0; k < 6; k += 2) {
+    one.a = added.block(k, k, 2, 2);
+    EXPECT_NEAR(bounds_of(one).damping, 0.5, 1e-9) << k;
+  }
 }
 
 TEST(ParallelSections, RefuseWhatIsNoStableSampledController) {

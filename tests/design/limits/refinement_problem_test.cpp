@@ -45,6 +45,14 @@ TEST(RefinementProblem, ObjectiveIsTheLargestRatioToTheStart) {
   // With the allowance at standstill.
   EXPECT_NEAR(problem.objective(Eigen::Vector2d(0.1 * rms[0], 1.3 * rms[1])), std::log(1.3 / 1.15),
               1e-12);
+  // Each plant to its own, not to the largest.
+  const std::vector<SampledSetting> two{refined.with_friction(0.9), refined.with_friction(60.0)};
+  const RobustConstraints both({.plants = two}, refined.goals, 1);
+  Eigen::VectorXd own = both.rms(refined.start);
+  const Eigen::Index lower = own[0] < own[1] ? 0 : 1;
+  ASSERT_LT(own[lower], 0.99 * own[1 - lower]);
+  own[lower] *= 1.005;
+  EXPECT_NEAR(RefinementProblem(refined.start, both, {}).objective(own), std::log(1.005), 1e-12);
 }
 
 // The search's own values and gradients lead to what the exact quantities confirm.
@@ -117,7 +125,7 @@ TEST(RefinementProblem, CorrectionsShrinkWithTheStep) {
   EXPECT_NEAR(problem.step(radius).peaks[0], of_centre, 1e-4);
 }
 
-// Corners limit the peak at the valve, as the plants do, and nothing else.
+// Corners limit the peak at the valve, as the plants do, and no other figure.
 TEST(RefinementProblem, CornersLimitThePeakAlone) {
   const Refined refined;
   const std::vector<SampledSetting> corner{refined.with_friction(0.1)};
@@ -144,6 +152,8 @@ TEST(RefinementProblem, CornersLimitThePeakAlone) {
   goals.sensitivity_peak = 0.97 * peak_after(without);
   const RobustConstraints tight({.plants = refined.plants, .corners = corner}, goals, 1);
   EXPECT_LT(peak_after(tight), 1.002 * goals.sensitivity_peak);
+  const RobustConstraints unlimited({.plants = refined.plants}, goals, 1);
+  EXPECT_GT(peak_after(unlimited), 1.01 * goals.sensitivity_peak);
 }
 
 }  // namespace

@@ -91,6 +91,11 @@ TEST(RobustConstraints, CountThePeakAtAnEdgeOfTheEncoder) {
   EXPECT_NEAR(RobustConstraints({moving, none, at_edges}, {1e3, 1e3, 1e3, peak / 1.2}, 1)
                   .excess(controller),
               std::log(1.2), 2e-3);
+  // As a corner it counts against the goal of the plants.
+  EXPECT_NEAR(
+      RobustConstraints({.plants = at_edges, .corners = at_edges}, {peak / 1.3, 1e3, 1e3, 1e3}, 1)
+          .excess(controller),
+      std::log(1.3), 2e-3);
   const double radius = at_edges.front().spectral_radius(controller);
   const auto encoder = std::ranges::find(controller.inputs, "encoder") - controller.inputs.begin();
   controller.b.col(encoder) *= 1.4;

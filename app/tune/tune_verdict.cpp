@@ -14,6 +14,7 @@
 #include <boresight/app/tune/controllers_in_time.hpp>
 #include <boresight/app/tune/tune_study.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/control/analysis/delay_limited_bandwidth.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/design/problem/pointing_budget.hpp>
@@ -95,6 +96,19 @@ std::string standing_goals(const TunedController& row, const design::Constraints
   }
   if (texts.empty()) texts = row.design.tuning.active_constraints;
   return fmt::format("{}", fmt::join(texts, "; "));
+}
+
+// Where a bandwidth asks more than the delay leaves to a loop of one integrator on any plant.
+std::string delay_text(const TuneSection& section) {
+  const auto& goals = section.goals;
+  const double delay = section.problem.delay, peak = goals.sensitivity_peak.back();
+  if (!goals.bandwidth || !(delay > 0.0)) return "";
+  const double reached = control::delay_limited_bandwidth(delay, peak);
+  if (*goals.bandwidth <= reached) return "";
+  return fmt::format(
+      " The bandwidth asks more than the delay leaves: with {:.3g} ms and Ms {:.3g} a loop of one "
+      "integrator has {:.3g} Hz around a plant without dynamics. State less, or shorten the delay.",
+      1e3 * delay, peak, reached / two_pi);
 }
 
 // The rms in wind that budgets are held against, and what else the nonlinear antenna adds.
@@ -182,11 +196,12 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
       {fmt::format("No controller of {} meets every constraint at {:.3g} m/s{}{}.",
                    fmt::join(names, ", "), speed, robust ? " on " + plants : "",
                    standing > 1 ? ": the constraints are mutually incompatible" : ""),
-       fmt::format("{} comes nearest, {:.1f} % beyond its worst limits: {}.{}",
+       fmt::format("{} comes nearest, {:.1f} % beyond its worst limits: {}.{}{}",
                    name_and_purpose(*nearest),
                    100.0 * (nearest->design.tuning.worst_constraint - 1.0),
                    standing_goals(*nearest, section.goals),
-                   assumed_demand(nearest->design.tuning, section.demand_assumption))});
+                   assumed_demand(nearest->design.tuning, section.demand_assumption),
+                   delay_text(section))});
 }
 
 // The structures that were tuned, in the order of the table.

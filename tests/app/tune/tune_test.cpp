@@ -337,7 +337,18 @@ TEST(Tune, SaysWhichGoalsContradictEachOther) {
   EXPECT_THAT(result.errors, ContainsRegex("bandwidth.*: [0-9.]+ Hz, limit at least 0.2"));
   EXPECT_THAT(result.errors,
               ContainsRegex("sensitivity peak at valve command.*: [0-9.]+, limit at most 1.2"));
+  EXPECT_THAT(result.errors, Not(HasSubstr("delay")));
   EXPECT_EQ(tune(path, {"--goal", "sensitivity_peak=1.2"}).exit_code, 0);
+}
+
+// With 30 ms and Ms 2 one integrator has 0.457/0.03 rad/s.
+TEST(Tune, SaysThatABandwidthAsksMoreThanTheDelayLeaves) {
+  const ScratchFolder folder;
+  const ProgramResult result = tune(linear_case(folder), {"--goal", "bandwidth=5 Hz"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.errors,
+              ContainsRegex("The bandwidth asks more than the delay leaves: with 30 ms and Ms 2 a "
+                            "loop of one integrator has 2.4[0-9] Hz"));
 }
 
 // Gains so high that no loop with 30 ms of dead time stands them.

@@ -90,8 +90,8 @@ struct PointingLimit {
   /// pairs about the hydraulic mode. Its constraints: Ms at the valve on members and corners, with
   /// a reserve for other plants; Ms of the position loop, cut at the encoder; the effort; stability
   /// and both peaks at the friction slopes of Constraints::standstill; |S| at its edges of the
-  /// encoder; and bounds of the poles. The corners, then also the edges, are left out where the
-  /// start is unstable there or no step meets them. Of the steps evaluated it has the fewest
+  /// encoder; and bounds of the poles. Where the start is unstable on them or no step meets them,
+  /// the edges are left out, else the corners, else both. Of the steps evaluated it has the fewest
   /// PointingLimitOptions::violations. If no start is given, or it has integrals or is unstable
   /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
   /// LQG, where poles are repeated, and where no step meets every constraint.

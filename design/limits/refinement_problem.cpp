@@ -84,7 +84,12 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
       centre_(sections_.parameters()),
       moving_(constraints.plants().size()),
       rated_(moving_ + constraints.at_standstill().size()),
-      limited_positions_(constraints.goals().position_peak ? rated_ : 0) {
+      limited_positions_(constraints.goals().position_peak ? rated_ : 0),
+      of_centre_(
+          VectorXd::Constant(static_cast<Index>(rated_ + constraints.at_edges().size() +
+                                                constraints.corners().size() + limited_positions_),
+                             peak_margin)),
+      corrections_(of_centre_) {
   std::vector<const SampledSetting*> settings;
   for (const auto group : {constraints.plants(), constraints.at_standstill(),
                            constraints.at_edges(), constraints.corners()}) {
@@ -94,8 +99,6 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
   numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
     spectra_[i] = sampled_spectrum(*settings[i], frequency_);
   });
-  corrections_.setConstant(static_cast<Index>(all() + limited_positions_), peak_margin);
-  of_centre_ = corrections_;
   references_ = constraints.rms(start).array().log();
   references_.tail(static_cast<Index>(rated_ - moving_)).array() +=
       std::log(allowance_at_standstill);

@@ -80,8 +80,8 @@ class RefinementProblem {
   std::size_t moving_, rated_;            // the plants; these and those at standstill
   std::size_t limited_positions_;         // whose position loop's peak is limited: rated_ or 0
   Eigen::VectorXd references_;            // ln of the rms of the start, of those rated
-  Eigen::VectorXd corrections_;           // ln, of the peaks
   Eigen::VectorXd of_centre_;             // the corrections that the centre needs
+  Eigen::VectorXd corrections_;           // ln, of the peaks
 };
 
 }  // namespace boresight::design

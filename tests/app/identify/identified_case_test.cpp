@@ -80,8 +80,8 @@ TEST(IdentifiedCase, RefusesAnInertiaThatLeavesNoAntenna) {
   EXPECT_THROW(with_identified(antenna, found), NumericalFailure);
 }
 
-// Of all commands the ensemble is drawn from one distribution: a designed ensemble has its first
-// draws.
+// All commands sample the ensemble from one distribution: a designed ensemble has its first
+// samples.
 TEST(DrawnMembers, BeginWithThoseThatAControllerIsTunedOn) {
   const io::Case antenna = seventy_metres();
   std::vector<identification::DriveEstimate> random_samples(40, estimate());

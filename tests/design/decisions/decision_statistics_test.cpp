@@ -194,7 +194,7 @@ TEST(DecisionStatistics, BoundsQuantilesByOrderStatistics) {
   EXPECT_EQ(found[1].upper, 60.0);
   EXPECT_NEAR(found[0].value, 1.0 + 0.05 * 98.0, 1e-12);
   EXPECT_EQ(found[2].upper, 99.0);
-  // Ten draws say nothing of where 95 % end: 0.95^10 = 0.6 that all lie below.
+  // Ten samples do not bound the 95 % quantile: all lie below it with probability 0.95^10 = 0.6.
   const auto few = compare_options(outcomes.topRows(10)).options[0].quantiles;
   EXPECT_EQ(few[2].upper, infinity);
   EXPECT_EQ(few[0].lower, -infinity);

@@ -35,7 +35,7 @@ TEST(RankingLosses, TellsApartThoseThatFailOnSomeDraws) {
   EXPECT_EQ(ranking.measure, LossMeasure::quantile_95);
   EXPECT_NEAR(ranking.losses[0], 1.95, 2e-3);
   EXPECT_NEAR(ranking.losses[1], 0.975, 1e-3);
-  // Beyond a twentieth of the draws even that is lost, by one of them or by all.
+  // Beyond a twentieth of the samples even that is lost, by one of them or by all.
   EXPECT_EQ(ranking_losses({option(1.0, 0.01), option(0.5, 0.1)}, {true, true}).losses[1], lost);
   const auto often = ranking_losses({option(1.0, 0.1), option(0.5, 0.2)}, {true, true});
   EXPECT_EQ(often.measure, LossMeasure::median);

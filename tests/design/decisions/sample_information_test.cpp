@@ -20,16 +20,16 @@ double normal_value(double mean, double deviation) {
   return deviation * (density - z * 0.5 * std::erfc(z / std::numbers::sqrt2));
 }
 
-struct Draws {
+struct Samples {
   Eigen::MatrixXd inputs, losses;
 };
 
 // Option 0 loses 0; option 1 loses mean + sum of weights times independent standard normals, of
 // which the last is no input; what both share tells nothing.
-Draws linear_samples(Eigen::Index count, double mean, const std::vector<double>& weights,
-                     double noise, std::uint64_t seed) {
-  Draws random_samples{Eigen::MatrixXd(count, static_cast<Eigen::Index>(weights.size())),
-                       Eigen::MatrixXd(count, 2)};
+Samples linear_samples(Eigen::Index count, double mean, const std::vector<double>& weights,
+                       double noise, std::uint64_t seed) {
+  Samples random_samples{Eigen::MatrixXd(count, static_cast<Eigen::Index>(weights.size())),
+                         Eigen::MatrixXd(count, 2)};
   for (Eigen::Index n = 0; n < count; ++n) {
     const auto index = static_cast<std::uint64_t>(n);
     const auto rest = numerics::NormalNumbers(seed, 99).pair(index);
@@ -46,7 +46,7 @@ Draws linear_samples(Eigen::Index count, double mean, const std::vector<double>&
 }
 
 TEST(SampleInformation, AgreesWithTheClosedFormOfTwoOptionsAndNormalInputs) {
-  const Draws random_samples = linear_samples(20000, 0.3, {1.0, 0.5, 0.0}, 0.6, 4);
+  const Samples random_samples = linear_samples(20000, 0.3, {1.0, 0.5, 0.0}, 0.6, 4);
   const SampleInformation found = sample_information(random_samples.inputs, random_samples.losses);
   EXPECT_EQ(found.choice, 0u);
   const double all = normal_value(0.3, std::sqrt(1.0 + 0.25 + 0.36));
@@ -73,7 +73,7 @@ TEST(SampleInformation, StatesErrorsThatHoldWhatTheySay) {
   double square = 0.0, perfect_square = 0.0, fitted = 0.0, held_out = 0.0;
   constexpr int repetitions = 200;
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
-    const Draws random_samples = linear_samples(300, 0.3, {1.0}, 0.5, seed);
+    const Samples random_samples = linear_samples(300, 0.3, {1.0}, 0.5, seed);
     const SampleInformation found =
         sample_information(random_samples.inputs, random_samples.losses);
     const InputValue& input = found.inputs[0];
@@ -93,7 +93,7 @@ TEST(SampleInformation, BracketsAnInputThatIsWorthNothing) {
   double fitted = 0.0, held_out = 0.0;
   constexpr int repetitions = 100;
   for (std::uint64_t seed = 1; seed <= repetitions; ++seed) {
-    const Draws random_samples = linear_samples(200, 0.0, {0.0}, 1.0, seed);
+    const Samples random_samples = linear_samples(200, 0.0, {0.0}, 1.0, seed);
     const InputValue input =
         sample_information(random_samples.inputs, random_samples.losses).inputs[0];
     fitted += input.fitted.gain / repetitions;
@@ -107,8 +107,8 @@ TEST(SampleInformation, BracketsAnInputThatIsWorthNothing) {
 
 TEST(SampleInformation, FindsWhatDependsOnAnInputByACurve) {
   // Option 1 loses x^2 - 1/3, x uniform over (-1, 1): knowing x gains the mean of 1/3 - x^2 over
-  // |x| < 1/sqrt(3), which is 2/(9 sqrt(3)); the chance in it is the deviation 0.3.
-  Draws random_samples{Eigen::MatrixXd(4000, 2), Eigen::MatrixXd(4000, 3)};
+  // |x| < 1/sqrt(3), which is 2/(9 sqrt(3)); the realisation error in it is the deviation 0.3.
+  Samples random_samples{Eigen::MatrixXd(4000, 2), Eigen::MatrixXd(4000, 3)};
   for (Eigen::Index n = 0; n < 4000; ++n) {
     const double x = (2.0 * static_cast<double>(n) + 1.0) / 4000.0 - 1.0;
     const auto noise = numerics::NormalNumbers(8).pair(static_cast<std::uint64_t>(n));
@@ -127,7 +127,7 @@ TEST(SampleInformation, FindsWhatDependsOnAnInputByACurve) {
 }
 
 TEST(SampleInformation, DoesNotDependOnUnitsOfInputsOrOnWhatAllOptionsShare) {
-  Draws random_samples = linear_samples(300, 0.2, {1.0, 0.4}, 0.5, 11);
+  Samples random_samples = linear_samples(300, 0.2, {1.0, 0.4}, 0.5, 11);
   const SampleInformation one = sample_information(random_samples.inputs, random_samples.losses);
   random_samples.inputs.col(0) *= 1e9;
   random_samples.losses.colwise() += Eigen::VectorXd::LinSpaced(300, 0.0, 2.0);
@@ -137,7 +137,7 @@ TEST(SampleInformation, DoesNotDependOnUnitsOfInputsOrOnWhatAllOptionsShare) {
 }
 
 TEST(SampleInformation, IsNothingWhereOneOptionIsBestEverywhere) {
-  Draws random_samples = linear_samples(200, 0.0, {1.0}, 0.0, 2);
+  Samples random_samples = linear_samples(200, 0.0, {1.0}, 0.0, 2);
   random_samples.losses.col(1) = random_samples.losses.col(0).array() + 0.5;
   const SampleInformation found = sample_information(random_samples.inputs, random_samples.losses);
   EXPECT_EQ(found.perfect.gain, 0.0);

@@ -56,7 +56,7 @@ TEST(ReferenceEnsemble, HoldsThirtyPlantsWithinTheirRanges) {
   }
   EXPECT_EQ(names.size(), 30u);
   EXPECT_NEAR(members[5].plant.drive.leakage_rate, 0.366, 1e-12);
-  // One draw in each of 24 equal parts of a range.
+  // One sample in each of 24 equal parts of a range.
   std::set<int> parts;
   for (std::size_t i = 6; i < members.size(); ++i) {
     parts.insert(static_cast<int>(members[i].plant.drive.viscous_friction / 12.0 * 24.0));

@@ -19,7 +19,7 @@ bool holds(const EstimatedNumber& estimate, double truth) {
   return estimate.lower <= truth && truth <= estimate.upper;
 }
 
-// Inverse of the logistic law's distribution function, and its variance pi^2/3.
+// Inverse of the logistic distribution function, and its variance pi^2/3.
 double logistic(double fraction) {
   return std::log(fraction / (1.0 - fraction));
 }
@@ -68,7 +68,7 @@ TEST(Summary, HasTheClosedFormsOfEvenlySpacedNumbers) {
   EXPECT_EQ(summary.largest, 100.0);
   EXPECT_DOUBLE_EQ(summary.quantiles[0].number.value, 25.0);
   EXPECT_DOUBLE_EQ(summary.quantiles[1].number.value, 50.0);
-  // By tables of the binomial law: the median of 101 between the 41st and the 61st.
+  // By tables of the binomial distribution: the median of 101 between the 41st and the 61st.
   EXPECT_EQ(summary.quantiles[1].number.lower, 40.0);
   EXPECT_EQ(summary.quantiles[1].number.upper, 60.0);
 }

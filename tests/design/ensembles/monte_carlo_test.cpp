@@ -23,8 +23,8 @@ using design::MonteCarloRun;
 using design::PlantOutcome;
 using design::StabilityBasis;
 
-// The reference antenna with other oil, leakage and friction; wilder, where asked, than its law
-// bears.
+// The reference antenna with other oil, leakage and friction; wider, where requested, than its
+// controller is stable on.
 plant::AntennaPlant antenna_number(std::uint64_t index, double wildness) {
   const auto fraction = [&](std::uint64_t input) {
     return static_cast<double>(numerics::splitmix64(3, 3 * index + input) >> 11U) * 0x1p-53;

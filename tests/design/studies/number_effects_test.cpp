@@ -31,7 +31,7 @@ void later(TrackingProblem& problem, double fraction) {
   problem.delay *= 1.0 + fraction;
 }
 
-void nothing(TrackingProblem& /*problem*/, double /*share*/) {}
+void nothing(TrackingProblem& /*problem*/, double /*fraction*/) {}
 
 void no_antenna(TrackingProblem& /*problem*/, double fraction) {
   if (fraction > 0.0) throw InvalidInput("no antenna");

@@ -25,7 +25,7 @@ ProposedDesign candidate_of(const std::string& name, double first, double second
   return candidate;
 }
 
-// One plant for all, so that means over the draws go as the factors of the controllers.
+// One plant for all, so that means over the samples scale with the factors of the controllers.
 std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candidates,
                                         const Mission& mission = reference::uncertain_mission()) {
   ProposalOptions options;
@@ -86,7 +86,7 @@ TEST(Decide, PutsWhatIsFitFirst) {
   EXPECT_FALSE(decision->tests);
 }
 
-// Unstable on some draws, both have infinite means: that of less rms is chosen, not the first.
+// Unstable on some samples, both have infinite means: that of less rms is chosen, not the first.
 TEST(Decide, TellsApartWhatIsUnstableOnSomeDraws) {
   Mission mission = reference::uncertain_mission();
   mission.uncertainty.ranges.structure_frequency.lower = 0.3;

@@ -246,7 +246,7 @@ TEST(MeasuredTuning, TunesFromAChirpOfTheNonlinearAntenna) {
     options.rounds = 4;
     const auto result = tune(problem, *structure, {}, options);
     EXPECT_EQ(result.status, MeasuredTuningStatus::confident) << result.verification.failure;
-    // Peaks and winding on the truth, from far below to far above what was measured.
+    // Peaks and encirclements on the truth, from far below to far above what was measured.
     const Eigen::ArrayXd grid = measured_grid(problem, 100, false);
     control::LoopEvaluator exact(control::sampled_on(grid, response),
                                  {.delay = problem.delay,

@@ -98,7 +98,7 @@ std::string standing_goals(const TunedController& row, const design::Constraints
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-// Where a bandwidth asks more than the delay leaves to a loop of one integrator on any plant.
+// Where a loop of one integrator and the delay alone has less than the bandwidth required.
 std::string delay_text(const TuneSection& section) {
   const auto& goals = section.goals;
   const double delay = section.problem.delay, peak = goals.sensitivity_peak.back();
@@ -106,9 +106,10 @@ std::string delay_text(const TuneSection& section) {
   const double reached = control::delay_limited_bandwidth(delay, peak);
   if (*goals.bandwidth <= reached) return "";
   return fmt::format(
-      " The bandwidth asks more than the delay leaves: with {:.3g} ms and Ms {:.3g} a loop of one "
-      "integrator has {:.3g} Hz around a plant without dynamics. State less, or shorten the delay.",
-      1e3 * delay, peak, reached / two_pi);
+      " With the delay of {:.3g} ms and Ms {:.3g}, a loop of one integrator around a plant without "
+      "dynamics has a bandwidth of {:.3g} Hz, less than the {:.3g} Hz required. Require less, or "
+      "shorten the delay.",
+      1e3 * delay, peak, reached / two_pi, *goals.bandwidth / two_pi);
 }
 
 // The rms in wind that budgets are held against, and what else the nonlinear antenna adds.

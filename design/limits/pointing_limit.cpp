@@ -76,6 +76,14 @@ std::vector<double> further_pairs(const plant::AntennaPlant& plant) {
   return result;
 }
 
+// The settings; then, if there are any, none.
+std::vector<std::span<const SampledSetting>> with_and_without(
+    const std::vector<SampledSetting>& settings) {
+  std::vector<std::span<const SampledSetting>> result{settings};
+  if (!settings.empty()) result.emplace_back();
+  return result;
+}
+
 class Study {
  public:
   Study(const TrackingProblem& problem, const Constraints& goals,
@@ -183,26 +191,20 @@ class Study {
         options.poles = pole_bounds;
         const auto stated = std::span(at_standstill_).first(stated_slopes_);
         options.violations = violations_;
-        struct Further {
-          std::span<const SampledSetting> edges, corners;
-          bool operator==(const Further& other) const {
-            return edges.size() == other.edges.size() && corners.size() == other.corners.size();
+        // Edges are left out before corners: simulation shows what that costs, nothing tests
+        // corners.
+        for (const auto corners : with_and_without(corners_)) {
+          for (const auto edges : with_and_without(at_edges_)) {
+            if (found && found->feasible) break;
+            const RobustConstraints constraints({.plants = settings_,
+                                                 .at_standstill = stated,
+                                                 .at_edges = edges,
+                                                 .corners = corners},
+                                                refined_goals_, threads_);
+            if (!constraints.stable(start)) continue;
+            found = refine_controller(start, constraints, options);
+            limit.refined_from = start_->name;
           }
-        };
-        // Edges first: simulation shows what comes of leaving them out, but nothing tests corners.
-        std::vector<Further> attempts;
-        for (const Further& one :
-             {Further{at_edges_, corners_}, {{}, corners_}, {at_edges_, {}}, {{}, {}}}) {
-          if (std::ranges::find(attempts, one) == attempts.end()) attempts.push_back(one);
-        }
-        for (const auto& [edges, corners] : attempts) {
-          const RobustConstraints constraints(
-              {.plants = settings_, .at_standstill = stated, .at_edges = edges, .corners = corners},
-              refined_goals_, threads_);
-          if (!constraints.stable(start)) continue;
-          found = refine_controller(start, constraints, options);
-          limit.refined_from = start_->name;
-          if (found->feasible) break;
         }
       }
       if (!found) {

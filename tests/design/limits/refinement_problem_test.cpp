@@ -33,6 +33,13 @@ struct Refined {
                          .standstill_peak = 8.0,
                          .position_peak = 4.0};
   RobustConstraints constraints{{plants, held}, goals, 1};
+
+  // The start's own peak at the valve is the goal.
+  RobustConstraints with_active_peak() const {
+    SampledLoopGoals tight = goals;
+    tight.sensitivity_peak *= std::exp(constraints.peaks(start)[0]);
+    return {{plants, held}, tight, 1};
+  }
 };
 
 TEST(RefinementProblem, ObjectiveIsTheLargestRatioToTheStart) {
@@ -76,9 +83,7 @@ TEST(RefinementProblem, AStepGainsWhatItsControllerShows) {
 // Where the peak is an active constraint, a correction of 1 % lowers it by 1 %.
 TEST(RefinementProblem, CorrectionsTightenTheirOwnConstraint) {
   const Refined refined;
-  SampledLoopGoals goals = refined.goals;
-  goals.sensitivity_peak *= std::exp(refined.constraints.peaks(refined.start)[0]);
-  const RobustConstraints active({refined.plants, refined.held}, goals, 1);
+  const RobustConstraints active = refined.with_active_peak();
   RefinementProblem problem(refined.start, active, {});
   constexpr double radius = 0.05;
   const auto before = problem.step(radius);
@@ -103,9 +108,7 @@ TEST(RefinementProblem, CorrectionsTightenTheirOwnConstraint) {
 // The correction that only a longer step needed is halved, that of the centre stays.
 TEST(RefinementProblem, CorrectionsShrinkWithTheStep) {
   const Refined refined;
-  SampledLoopGoals goals = refined.goals;
-  goals.sensitivity_peak *= std::exp(refined.constraints.peaks(refined.start)[0]);
-  const RobustConstraints active({refined.plants, refined.held}, goals, 1);
+  const RobustConstraints active = refined.with_active_peak();
   RefinementProblem problem(refined.start, active, {});
   constexpr double radius = 0.05;
   const auto without = problem.step(radius);

@@ -220,24 +220,28 @@ SampledPeak SampledSetting::highest_position_peak(
   return highest_of((others / (others - loops.col(encoder))).abs().log());
 }
 
-// Of ln |S| at the frequencies.
+// Of ln |S| at the frequencies: the highest of all local maxima, each interpolated by a parabola.
+// Of two that are nearly as high, the lower on the grid may be the higher one between.
 SampledPeak SampledSetting::highest_of(const Eigen::ArrayXd& level) const {
   Eigen::Index top = 0;
-  level.maxCoeff(&top);
-  SampledPeak peak{frequency_[top], std::exp(level[top])};
-  if (top == 0 || top + 1 == level.size()) return peak;
-  const double left = std::log(frequency_[top - 1] / frequency_[top]);
-  const double right = std::log(frequency_[top + 1] / frequency_[top]);
-  const double from_left = (level[top] - level[top - 1]) / -left;
-  const double from_right = (level[top + 1] - level[top]) / right;
-  const double curvature = (from_right - from_left) / (right - left);
-  if (!(curvature < 0.0)) return peak;
-  // The parabola through the three points: slope at the top and curvature.
-  const double slope = from_right - curvature * right;
-  const double place = std::clamp(-slope / (2.0 * curvature), left, right);
-  peak.frequency *= std::exp(place);
-  peak.magnitude = std::exp(level[top] + place * (slope + curvature * place));
-  return peak;
+  double highest = level.maxCoeff(&top), frequency = frequency_[top];
+  for (Eigen::Index k = 1; k + 1 < level.size(); ++k) {
+    if (level[k] < level[k - 1] || level[k] < level[k + 1]) continue;
+    const double left = std::log(frequency_[k - 1] / frequency_[k]);
+    const double right = std::log(frequency_[k + 1] / frequency_[k]);
+    const double from_left = (level[k] - level[k - 1]) / -left;
+    const double from_right = (level[k + 1] - level[k]) / right;
+    const double curvature = (from_right - from_left) / (right - left);
+    if (!(curvature < 0.0)) continue;
+    // The parabola through the three points: slope at the middle one and curvature.
+    const double slope = from_right - curvature * right;
+    const double place = std::clamp(-slope / (2.0 * curvature), left, right);
+    const double between = level[k] + place * (slope + curvature * place);
+    if (!(between > highest)) continue;
+    highest = between;
+    frequency = frequency_[k] * std::exp(place);
+  }
+  return {frequency, std::exp(highest)};
 }
 
 }  // namespace boresight::design

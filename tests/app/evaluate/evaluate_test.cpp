@@ -91,7 +91,7 @@ TEST(Evaluate, HoldsTheDriveToItsLimits) {
               HasSubstr("The drive as it is cannot reach the stated slew rate"));
 }
 
-TEST(Evaluate, ComparesOnTheSameDraws) {
+TEST(Evaluate, ComparesOnTheSameSamples) {
   const auto& decision = *two_proposals().evaluated->decision;
   EXPECT_EQ(decision.random_samples, 200U);
   ASSERT_EQ(decision.statistics.options.size(), 3U);
@@ -123,7 +123,7 @@ TEST(Evaluate, ComparesOnTheSameDraws) {
             decision.statistics.options[decision.best].mean);
 }
 
-TEST(Evaluate, DrawsAgreeWithTheEnsemble) {
+TEST(Evaluate, SamplesAgreeWithTheEnsemble) {
   // Both are over the same ranges, apart from the corners: their means are near.
   const auto& section = *two_proposals().evaluated;
   for (std::size_t i = 0; i < section.candidates.size(); ++i) {

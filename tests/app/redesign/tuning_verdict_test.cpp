@@ -82,7 +82,7 @@ TEST(TuningVerdict, EndsWhereTheSupplysTorqueEnds) {
   EXPECT_EQ(met_text(*report.tuning, budgets[1]), "is met in no wind");
 }
 
-TEST(TuningVerdict, GivesTheShareOfTheClimatesTime) {
+TEST(TuningVerdict, GivesTheFractionOfTheClimatesTime) {
   Report report = tuned_report();
   TuningSection& section = *report.tuning;
   section.wind_site.surface_drag = 0.005;

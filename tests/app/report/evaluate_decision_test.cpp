@@ -25,7 +25,7 @@ void rank(EvaluateSection& section) {
                           *section.decision);
 }
 
-// Two proposals beside the antenna as it is, by cost and mean rms over the draws.
+// Two proposals beside the antenna as it is, by cost and mean rms over the samples.
 EvaluateSection proposals_of(const std::vector<std::pair<double, double>>& costs_and_means) {
   EvaluateSection section;
   section.currency = "kEUR";
@@ -67,8 +67,9 @@ TEST(EvaluateDecision, PaysForNothingNegligible) {
   EXPECT_THAT(conclude(section), Contains(HasSubstr("no proposal is worth its cost")));
 }
 
-// Of infinite means the cheapest is as good as any: what 95 % of the draws keep within tells more.
-TEST(EvaluateDecision, WeighsWhatIsUnstableOnSomeDrawsByWhatTheOthersKeep) {
+// Of infinite means the cheapest is as good as any: what 95 % of the samples keep within tells
+// more.
+TEST(EvaluateDecision, RanksWhatIsUnstableOnSomeSamplesByWhatTheOthersKeep) {
   auto section = proposals_of({{0.0, HUGE_VAL}, {20.0, HUGE_VAL}});
   ASSERT_TRUE(section.decision);
   auto& options = section.decision->statistics.options;

@@ -66,7 +66,7 @@ FrictionThreshold threshold_of(double at_nominal) {
   return threshold;
 }
 
-TEST(MatchConclusions, GatherWhatTurningRoundDoesAndNameTheTrackingRate) {
+TEST(MatchConclusions, GatherEffectsOfVelocityReversalAndNameTheTrackingRate) {
   MatchSection section =
       section_of({series_of("PI", {0.4, 0.5, 0.6}), series_of("DPF", {0.4, 0.5, 0.6}),
                   series_of("LL", {0.4, 0.5, 0.6})});

@@ -69,7 +69,7 @@ TEST(IdentificationText, ReconcilesNoMethodsThatContradictOneAnother) {
               HasSubstr("(the impulse results count as one)"));
 }
 
-TEST(IdentificationText, GivesSharesOfTheDrawsInFigures) {
+TEST(IdentificationText, GivesFractionsOfTheSamplesInFigures) {
   IdentificationSection section;
   section.inertia.methods.resize(1);
   section.printed.resize(1);
@@ -82,7 +82,7 @@ TEST(IdentificationText, GivesSharesOfTheDrawsInFigures) {
   EXPECT_THAT(with(0.0034), HasSubstr("In 0.34 % of samples"));
 }
 
-TEST(PlantText, GivesNoSignToAShareThatIsNothing) {
+TEST(PlantText, GivesNoSignToAFractionThatIsZero) {
   PlantSection section;
   plant::PlantMode mode;
   mode.frequency = 2.0;

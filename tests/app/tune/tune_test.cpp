@@ -157,7 +157,7 @@ TEST(PlantMembers, HasTheReferenceEnsemblesRanges) {
   EXPECT_DOUBLE_EQ(members[4].plant.drive.oil_stiffness, 1.33 * own.drive.oil_stiffness);
   EXPECT_NEAR(members[5].plant.drive.leakage_rate, 0.366, 1e-3);
   EXPECT_LT(members[1].plant.structure.gear_stiffness, own.structure.gear_stiffness);
-  // Of 24 draws each of 24 equal parts of the range has one.
+  // Of 24 samples each of 24 equal parts of the range has one.
   std::set<int> parts;
   for (std::size_t i = 6; i < members.size(); ++i) {
     const double factor = members[i].plant.drive.oil_stiffness / own.drive.oil_stiffness;

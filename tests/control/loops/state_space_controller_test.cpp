@@ -243,7 +243,7 @@ TEST(ClosedLoopResponse, EnergyIsTheSquaredNormOfTheRationalLoop) {
               1e-7 * norm * norm);
 }
 
-TEST(ClosedLoopResponse, ReturnsWithinItsShareAndStaysThere) {
+TEST(ClosedLoopResponse, ReturnsWithinItsFractionAndStaysThere) {
   const auto plant = reference::antenna();
   const ClosedLoopResponse course(plant, to_state_space(pi_controller()), delay);
   const auto score = course.score(DisturbanceType::impulse);

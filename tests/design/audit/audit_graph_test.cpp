@@ -153,7 +153,7 @@ TEST(AuditGraph, RecognisesDigitsCutOff) {
               Contains("with its digits cut off instead of rounded"));
 }
 
-TEST(AuditGraph, DoesNotExplainByAnEditThatChanceWouldAllow) {
+TEST(AuditGraph, DoesNotExplainByAnEditThatCoincidenceWouldAllow) {
   const auto findings = find({input("x", {print("2.0")}), input("y", {exact("3")}),
                               product("p", {"x", "y"}, {stated({print("6.83")})})});
   ASSERT_THAT(findings, SizeIs(1));

@@ -82,7 +82,7 @@ TEST(DecisionStatistics, CountsTiesHalfAndStaysCalibratedWithThem) {
   EXPECT_NEAR(found, 0.95, 0.025);
 }
 
-TEST(DecisionStatistics, NarrowsTheIntervalWhereHalfTheDrawsTie) {
+TEST(DecisionStatistics, NarrowsTheIntervalWhereHalfTheSamplesTie) {
   Eigen::ArrayXd decided(100);
   Eigen::ArrayXd tied(100);
   for (Eigen::Index n = 0; n < 100; ++n) {

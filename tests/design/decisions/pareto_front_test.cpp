@@ -34,7 +34,7 @@ TEST(ParetoFront, TakesInfinityForTheWorst) {
   EXPECT_THAT(pareto_front({}), IsEmpty());
 }
 
-TEST(ParetoFront, CountsTheDrawsInWhichAnOptionStands) {
+TEST(ParetoFront, CountsTheSamplesInWhichAnOptionStands) {
   Eigen::MatrixXd quantities(4, 3);
   quantities << 3.0, 2.0, 1.0,  // all
       1.0, 2.0, 3.0,            // the cheapest alone

@@ -30,7 +30,7 @@ TEST(RankingLosses, TakesTheMeanWhereOneThatIsFitHasOne) {
   EXPECT_EQ(ranking.losses[1], lost);
 }
 
-TEST(RankingLosses, TellsApartThoseThatFailOnSomeDraws) {
+TEST(RankingLosses, TellsApartThoseThatFailOnSomeSamples) {
   const auto ranking = ranking_losses({option(1.0, 0.01), option(0.5, 0.02)}, {true, true});
   EXPECT_EQ(ranking.measure, LossMeasure::quantile_95);
   EXPECT_NEAR(ranking.losses[0], 1.95, 2e-3);

@@ -94,7 +94,7 @@ TEST(Summary, IntervalsHoldTheTruthOfALogisticLaw) {
   EXPECT_NEAR(high, 0.96 * studies, 0.02 * studies);
 }
 
-TEST(Summary, SaysWhereTheDrawsAreTooFew) {
+TEST(Summary, SaysWhereTheSamplesAreTooFew) {
   const auto empty = design::summarise({}, {0.5});
   EXPECT_TRUE(std::isnan(empty.mean.value));
   EXPECT_TRUE(std::isnan(empty.quantiles[0].number.upper));

@@ -25,26 +25,26 @@ using design::StabilityBasis;
 
 // The reference antenna with other oil, leakage and friction; wider, where requested, than its
 // controller is stable on.
-plant::AntennaPlant antenna_number(std::uint64_t index, double wildness) {
+plant::AntennaPlant antenna_number(std::uint64_t index, double widening) {
   const auto fraction = [&](std::uint64_t input) {
     return static_cast<double>(numerics::splitmix64(3, 3 * index + input) >> 11U) * 0x1p-53;
   };
   auto plant = reference::antenna();
   plant.drive.oil_stiffness *= 0.8 + 0.5 * fraction(0);
-  plant.drive.leakage_rate *= 1.0 - (0.7 + 0.29 * wildness) * fraction(1);
-  plant.drive.viscous_friction = 12.0 * (1.0 - wildness) * fraction(2);
+  plant.drive.leakage_rate *= 1.0 - (0.7 + 0.29 * widening) * fraction(1);
+  plant.drive.viscous_friction = 12.0 * (1.0 - widening) * fraction(2);
   return plant;
 }
 
-MonteCarlo study(std::uint64_t plants, double wildness = 0.0) {
+MonteCarlo study(std::uint64_t plants, double widening = 0.0) {
   return {.problem = reference::tracking_problem(),
           .controller = reference::cautious_gains(),
           .goals = {},
           .plants = plants,
-          .plant = [=](std::uint64_t index) { return antenna_number(index, wildness); }};
+          .plant = [=](std::uint64_t index) { return antenna_number(index, widening); }};
 }
 
-// A controller that a fraction of the plants does not bear.
+// A controller that is unstable on a fraction of the plants.
 MonteCarlo hot_study(std::uint64_t plants) {
   MonteCarlo hot = study(plants, 1.0);
   hot.controller.gains[0] *= 1.1;

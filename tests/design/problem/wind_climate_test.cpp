@@ -121,7 +121,7 @@ TEST(WindClimate, SharesOutTheTime) {
   EXPECT_THROW(fraction_of_time({}, 5.0), InvalidInput);
 }
 
-TEST(WindClimate, TakesATableOfSpeedsAndShares) {
+TEST(WindClimate, TakesATableOfSpeedsAndFractions) {
   const auto speeds = climate_speeds({{5.0, 30.0}, {7.0, 0.0}, {10.0, 10.0}});
   ASSERT_EQ(speeds.size(), 2U);
   EXPECT_DOUBLE_EQ(speeds[0].weight, 0.75);

@@ -14,7 +14,7 @@ PlantSample draw_of(const Mission& mission) {
   return PlantDistribution::of_ranges(mission).draw(1, 5);
 }
 
-TEST(ProposedPlant, DrawsAreFactorsOnWhatTheProposalMakes) {
+TEST(ProposedPlant, SamplesAreFactorsOnWhatTheProposalMakes) {
   const Mission mission = reference::uncertain_mission();
   const plant::Antenna& as_is = mission.antenna;
   const PlantSample draw = draw_of(mission);

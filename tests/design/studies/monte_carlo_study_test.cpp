@@ -39,8 +39,8 @@ double unstable_fraction(const Mission& mission, const PlantDistribution& distri
   return static_cast<double>(unstable) / static_cast<double>(study.plants);
 }
 
-// What one plant is given is its draw's, and the summary holds every plant.
-TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheDrawsOfItsSeed) {
+// What one plant is given is its sample's, and the summary holds every plant.
+TEST(StudyMonteCarlo, EvaluatesTheControllerOnTheSamplesOfItsSeed) {
   const Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   const MonteCarloOptions options{.plants = 150, .seed = 7};

@@ -34,7 +34,7 @@ std::optional<ProposalDecision> decided(const std::vector<ProposedDesign>& candi
                 PlantDistribution::of_ranges(mission), options);
 }
 
-TEST(Decide, ComparesWithOneStructureOnBothOverTheSameDraws) {
+TEST(Decide, ComparesWithOneStructureOnBothOverTheSameSamples) {
   const auto decision =
       decided({candidate_of("as it is", 1.0, 0.9, 0), candidate_of("no flywheels", 1.1, 0.95, 1)});
   ASSERT_TRUE(decision);
@@ -87,7 +87,7 @@ TEST(Decide, PutsWhatIsFitFirst) {
 }
 
 // Unstable on some samples, both have infinite means: that of less rms is chosen, not the first.
-TEST(Decide, TellsApartWhatIsUnstableOnSomeDraws) {
+TEST(Decide, TellsApartWhatIsUnstableOnSomeSamples) {
   Mission mission = reference::uncertain_mission();
   mission.uncertainty.ranges.structure_frequency.lower = 0.3;
   mission.uncertainty.ranges.oil_stiffness.lower = 0.05;

@@ -196,7 +196,7 @@ TEST(Combine, OfMethodsThatAgreeIsTheInverseVarianceMean) {
   EXPECT_LT(result.heterogeneity, 1.0);
 }
 
-TEST(Combine, IsContradictoryBeyondChanceOnly) {
+TEST(Combine, IsContradictoryBeyondRealisationErrorOnly) {
   // Cochran's Q is half the square of the difference in standard uncertainties: 8 and 18, where
   // chance exceeds 10.8 on one degree of freedom once in a thousand times.
   EXPECT_FALSE(combine({{1.0, 0.1}, {1.4, 0.1}}, 0.5).contradictory());

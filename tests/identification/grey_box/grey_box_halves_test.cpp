@@ -183,7 +183,7 @@ TEST(MechanicalStepper, ModeOnAFreeMotorRingsAtTheFrequencyOfBothMasses) {
   EXPECT_NEAR((crossings - 1) / (last - first), expected, 2e-4 * expected);
 }
 
-TEST(MechanicalStepper, HoldsStillBelowBreakaway) {
+TEST(MechanicalStepper, StaysAtRestBelowBreakaway) {
   const Vector c = mechanical();
   MechanicalStepper motor(c, 0.02, false);
   motor.restart(0.0, c(Mechanical::offset_torque));

@@ -107,7 +107,7 @@ TEST(IdentifiedAntenna, HasEachFrequencyOfTheLockedRotorThatRecordsShow) {
   EXPECT_NEAR(held[2].frequency, 4.47, 1e-7);
 }
 
-TEST(IdentifiedNumbers, HaveTheScatterOfTheDraws) {
+TEST(IdentifiedNumbers, HaveTheScatterOfTheSamples) {
   const plant::Antenna own = plant::demo_antenna();
   std::vector<DriveEstimate> random_samples(2, estimate());
   random_samples[0].leakage_rate = 0.57;

@@ -101,7 +101,7 @@ TEST(MovableNumbers, MoveTheStiffnessThatTheCaseStates) {
 }
 
 // More of the beam on the lowest mode, less on all others in proportion.
-TEST(MovableNumbers, KeepTheSumOfShares) {
+TEST(MovableNumbers, KeepTheSumOfFractions) {
   const Case antenna = own_case();
   const auto weight = number_of(movable_numbers(antenna), "structure.mode[0].beam_weight");
   EXPECT_EQ(weight.fraction_of_mode, 0U);
@@ -118,7 +118,7 @@ TEST(MovableNumbers, KeepTheSumOfShares) {
 }
 
 // What the dish loses of the wind the light parts do not gain.
-TEST(MovableNumbers, GiveWhatAShareLosesToTheOthersInertias) {
+TEST(MovableNumbers, GiveWhatAFractionLosesToTheOthersInertias) {
   const Case antenna = own_case();
   const auto wind = number_of(movable_numbers(antenna), "structure.mode[0].wind_fraction");
   const Case lighter = moved(antenna, wind, false);

@@ -49,7 +49,7 @@ TEST(PlantDistribution, OfRangesKeepsToThem) {
   EXPECT_NEAR(std::sqrt(log_square), relative, 4.0 * relative / std::sqrt(2.0 * count));
 }
 
-TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
+TEST(PlantDistribution, FractionsAreThoseOfTheSamples) {
   // A quarter of the draws lies below what stands at the share 0.25, of every input.
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const auto quarter =
@@ -64,7 +64,7 @@ TEST(PlantDistribution, SharesAreThoseOfTheDraws) {
   }
 }
 
-// Draws of known lognormal law with a correlation come back from their fit.
+// Samples of a known lognormal distribution with a correlation come back from their fit.
 TEST(PlantDistribution, OfRecordsHasTheirCovariance) {
   const numerics::NormalNumbers normals(11);
   const double motors = motor_inertia(reference(), reference().motor->flywheel_disks);
@@ -191,7 +191,7 @@ TEST(PlantDistribution, DrawsTheWindTorqueByItsStatedUncertainties) {
 }
 
 // The sequence of the six inputs of the plant, whatever else is drawn.
-TEST(PlantDistribution, KeepsTheSequenceOfItsDraws) {
+TEST(PlantDistribution, KeepsTheSequenceOfItsSamples) {
   const auto ranges = member_ranges(reference());
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const std::uint64_t stream = numerics::splitmix64(7, 0x5eed0001);

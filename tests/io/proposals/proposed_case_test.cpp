@@ -199,7 +199,7 @@ TEST(ProposedCase, FlywheelsChangeTheMotorsInertiaOnly) {
   EXPECT_NEAR(plant.drive.motor_inertia, own.drive.motor_inertia, 1e-12);
 }
 
-TEST(ProposedCase, LinesCarryTheirShareOfTheVolumes) {
+TEST(ProposedCase, LinesCarryTheirFractionOfTheVolumes) {
   const Case near = with("[oil]\nline_lengths = { factor = '0.1' }\nline_share = '0.9'\n").antenna;
   EXPECT_NEAR(near.oil->volume_1.value / as_is().oil->volume_1.value, 0.19, 1e-12);
   EXPECT_NEAR(leakage(near) / leakage(as_is()), 1.0 / 0.19, 1e-9);

@@ -56,7 +56,7 @@ TEST(SobolIndices, AgreeWithTheIshigamiFunctionsToOnePerCent) {
   EXPECT_EQ(result.evaluations, 16u * 1024u * 5u);
 }
 
-TEST(SobolIndices, OfASumAreTheTermsShares) {
+TEST(SobolIndices, OfASumAreTheTermsFractions) {
   // c_i x_i with x_i uniform: variance c_i^2/12 each, nothing in common.
   const std::vector<double> c{1.0, -2.0, 3.0, 0.0};
   const auto result =

@@ -70,11 +70,11 @@ struct DecisionStatistics {
   std::size_t random_samples = 0;
 };
 
-/// Compares options by outcomes of which less is better (an rms, a loss): `outcomes(draw, option)`.
-/// All options of a row have the same sample of the uncertain inputs; rows are independent.
-/// +infinity marks an option that failed: worse than any number, tied with itself. Means and
-/// regrets are then infinite. The statistics hold for the distribution that was sampled, within
-/// their intervals.
+/// Compares options by outcomes of which less is better (an rms, a loss): `outcomes(sample,
+/// option)`. All options of a row have the same sample of the uncertain inputs; rows are
+/// independent. +infinity marks an option that failed: worse than any number, tied with itself.
+/// Means and regrets are then infinite. The statistics hold for the distribution that was sampled,
+/// within their intervals.
 /// @throws InvalidInput for fewer than 2 samples, no options, NaN or -infinity among the outcomes,
 /// or options out of range.
 DecisionStatistics compare_options(const Eigen::MatrixXd& outcomes,

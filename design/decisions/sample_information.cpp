@@ -101,7 +101,7 @@ Eigen::MatrixXd differences(const Eigen::MatrixXd& losses, Eigen::Index choice) 
   return losses.colwise() - losses.col(choice);
 }
 
-// What each draw gains if the choice follows the fit.
+// What each sample gains if the choice follows the fit.
 Eigen::ArrayXd gains(const Eigen::MatrixXd& differences, const Eigen::MatrixXd& fitted) {
   Eigen::ArrayXd result(differences.rows());
   for (Eigen::Index n = 0; n < result.size(); ++n) {

@@ -37,13 +37,13 @@ struct SampleInformation {
 };
 
 /// The value of information (H. Raiffa and R. Schlaifer, Applied Statistical Decision Theory, 1961)
-/// from samples: `inputs(draw, input)` and `losses(draw, option)`, rows independent, smaller losses
-/// better. The value of one input follows from regression of the losses' differences on it (M.
-/// Strong, J. E. Oakley, A. Brennan, Med. Decis. Making 34(3), 2014). The regression functions are
-/// natural cubic splines in the input with knots at its quantiles, straight beyond the outer ones
-/// (F. E. Harrell, Regression Modeling Strategies, 2001): a constant, a straight line, or a line
-/// and 1, 2, 4 or 6 curved columns. Standard errors are those of the gain of the fitted rule, over
-/// the samples. Inputs that do not vary have the value 0. O(samples x inputs x options).
+/// from samples: `inputs(sample, input)` and `losses(sample, option)`, rows independent, smaller
+/// losses better. The value of one input follows from regression of the losses' differences on it
+/// (M. Strong, J. E. Oakley, A. Brennan, Med. Decis. Making 34(3), 2014). The regression functions
+/// are natural cubic splines in the input with knots at its quantiles, straight beyond the outer
+/// ones (F. E. Harrell, Regression Modeling Strategies, 2001): a constant, a straight line, or a
+/// line and 1, 2, 4 or 6 curved columns. Standard errors are those of the gain of the fitted rule,
+/// over the samples. Inputs that do not vary have the value 0. O(samples x inputs x options).
 /// @throws InvalidInput for fewer than 100 samples, fewer than 2 options, sizes that differ, or
 /// numbers that are not finite.
 SampleInformation sample_information(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& losses);

@@ -38,8 +38,8 @@ constexpr std::uint64_t valve_stream = 0x5eed0004;
 // numbers stay the same whether they vary or not.
 constexpr std::size_t plant_inputs = place(UncertainInput::wind_torque);
 
-// Logarithms of a draw's factors against the estimate's case, in the order of PlantSample::values.
-// Nothing where it leaves the antenna no inertia.
+// Logarithms of a sample's factors against the estimate's case, in the order of
+// PlantSample::values. Nothing where it leaves the antenna no inertia.
 std::optional<Eigen::VectorXd> log_factors(const plant::Antenna& identified,
                                            const identification::DriveEstimate& draw) {
   const double antenna = draw.inertia - draw.motor_inertia - plant::gear_train_inertia(identified);

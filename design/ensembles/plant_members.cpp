@@ -12,16 +12,16 @@ namespace boresight::design {
 namespace {
 
 // What one member has instead of the case's numbers, in the order of MemberRanges.
-struct Draw {
+struct MemberValues {
   double structure_frequency = 1.0, oil_stiffness = 1.0, leakage_rate = 0.0, viscous_friction = 0.0;
 };
 
-plant::AntennaPlant plant_of(const plant::Antenna& antenna, const Draw& draw) {
+plant::AntennaPlant plant_of(const plant::Antenna& antenna, const MemberValues& values) {
   return linear_plant(
-      changed(antenna, {plant::set_to("drive.viscous_friction", draw.viscous_friction),
-                        plant::scaled_by("at_shaft.oil_stiffness", draw.oil_stiffness),
-                        plant::set_to("drive.leakage_rate", draw.leakage_rate),
-                        plant::scaled_by("structure.frequencies", draw.structure_frequency)}));
+      changed(antenna, {plant::set_to("drive.viscous_friction", values.viscous_friction),
+                        plant::scaled_by("at_shaft.oil_stiffness", values.oil_stiffness),
+                        plant::set_to("drive.leakage_rate", values.leakage_rate),
+                        plant::scaled_by("structure.frequencies", values.structure_frequency)}));
 }
 
 // Uniform within [0, 1), number `index` of a stream.
@@ -61,25 +61,27 @@ std::string_view to_string(EnsembleSource source) {
 std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t seed) {
   const MemberRanges& ranges = mission.uncertainty.ranges;
   const plant::DriveRatings& drive = mission.antenna.drive;
-  const Draw own{1.0, 1.0, drive.leakage_rate, drive.viscous_friction};
+  const MemberValues own{1.0, 1.0, drive.leakage_rate, drive.viscous_friction};
   std::vector<EnsembleMember> members;
-  const auto add = [&](std::string name, const Draw& draw) {
-    members.push_back({std::move(name), plant_of(mission.antenna, draw)});
+  const auto add = [&](std::string name, const MemberValues& values) {
+    members.push_back({std::move(name), plant_of(mission.antenna, values)});
   };
   add("nominal", own);
-  Draw corner = own;
-  corner.structure_frequency = ranges.structure_frequency.lower;
-  add(fmt::format("structure frequencies x {:g}", corner.structure_frequency), corner);
-  corner.structure_frequency = ranges.structure_frequency.upper;
-  add(fmt::format("structure frequencies x {:g}", corner.structure_frequency), corner);
-  corner = own;
-  corner.oil_stiffness = ranges.oil_stiffness.lower;
-  add(fmt::format("oil stiffness x {:g}", corner.oil_stiffness), corner);
-  corner.oil_stiffness = ranges.oil_stiffness.upper;
-  add(fmt::format("oil stiffness x {:g}", corner.oil_stiffness), corner);
-  corner = own;
-  corner.leakage_rate = ranges.leakage_rate.lower;
-  add(fmt::format("leakage rate {:.4g} 1/s", corner.leakage_rate), corner);
+  MemberValues changed_value = own;
+  changed_value.structure_frequency = ranges.structure_frequency.lower;
+  add(fmt::format("structure frequencies x {:g}", changed_value.structure_frequency),
+      changed_value);
+  changed_value.structure_frequency = ranges.structure_frequency.upper;
+  add(fmt::format("structure frequencies x {:g}", changed_value.structure_frequency),
+      changed_value);
+  changed_value = own;
+  changed_value.oil_stiffness = ranges.oil_stiffness.lower;
+  add(fmt::format("oil stiffness x {:g}", changed_value.oil_stiffness), changed_value);
+  changed_value.oil_stiffness = ranges.oil_stiffness.upper;
+  add(fmt::format("oil stiffness x {:g}", changed_value.oil_stiffness), changed_value);
+  changed_value = own;
+  changed_value.leakage_rate = ranges.leakage_rate.lower;
+  add(fmt::format("leakage rate {:.4g} 1/s", changed_value.leakage_rate), changed_value);
 
   const std::size_t random_samples = mission.uncertainty.random_samples;
   std::array<std::vector<double>, 4> fractions;

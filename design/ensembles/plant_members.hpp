@@ -21,9 +21,9 @@ struct PlantEnsemble {
   std::vector<EnsembleMember> members;
 };
 
-/// Samples the ensemble: the mission's own plant ("nominal"), five corners and a Latin hypercube of
-/// AntennaUncertainty::random_samples over all four ranges. A corner has one range at one end (both
-/// ends for structure and oil, the lower for leakage). The same seed gives the same members.
+/// Samples the ensemble: the mission's own plant ("nominal"), five with one input at an end of its
+/// range (both ends for structure and oil, the lower for leakage), and a Latin hypercube of
+/// AntennaUncertainty::random_samples over all four ranges. The same seed gives the same members.
 /// @throws InvalidInput as plant::changed and plant::linear_plant.
 std::vector<EnsembleMember> plant_members(const Mission& mission, std::uint64_t seed);
 

@@ -57,7 +57,7 @@ void add_unidentifiable_directions(GreyBoxPosterior& posterior, const GreyBoxPar
 ///    observation, by what its prediction errors alone would move the offset (a sandwich, clustered
 ///    by records; K.-Y. Liang and S. L. Zeger, Biometrika 73(1), 1986);
 ///  - the torque balance's discrepancy of the records' rms torque: friction that is not alike both
-///    ways, at a record's place and temperature, looks like an offset. Each record is one draw of
+///    ways, at a record's place and temperature, looks like an offset. Each record is one sample of
 ///    it, so that campaigns of few records are the less sure;
 ///  - pressures that stand for others whose zeros are not known, `unknown_torque` (N m).
 double offset_discrepancy(const GreyBoxObjective& objective, const GreyBoxPosterior& posterior,

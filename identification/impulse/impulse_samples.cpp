@@ -10,7 +10,7 @@
 
 namespace boresight::identification {
 
-/// Which sources of error a draw has.
+/// Which sources of error a sample has.
 struct ImpulseSamples::Sources {
   bool transducers = false;
   bool scales = false;
@@ -77,7 +77,7 @@ bool ImpulseSamples::has(FrictionTreatment treatment) const {
   return false;
 }
 
-// The nominal friction with a draw's changes by the sources that are on.
+// The nominal friction with a sample's changes by the sources that are on.
 ImpulseFriction ImpulseSamples::friction(FrictionTreatment treatment, const Sources& on,
                                          int draw) const {
   ImpulseFriction result;

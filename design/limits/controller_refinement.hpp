@@ -19,11 +19,12 @@ struct RefinementOptions {
   /// Number of violations of a requirement that is too expensive to evaluate at every step, such as
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
   /// 2, 6, 14 and so on steps before it, down to the first, until a step has none. The interval
-  /// from that step to the next evaluated one with violations is then halved. At most 10
-  /// evaluations; `enough` is the least count so far, at least 1. The result is the last step found
-  /// without violations, else the one with the fewest, the latest of several. Empty, or without an
-  /// accepted step that meets every constraint: the last step.
+  /// from that step to the next evaluated one with violations is then halved. `enough` is
+  /// the least count so far, at least 1. The result is the last step found without violations, else
+  /// the one with the fewest, the latest of several. Empty, or without an accepted step that meets
+  /// every constraint: the last step.
   CountViolations violations = {};
+  int max_evaluated = 6;  // steps at which they are counted
 };
 
 struct RefinementResult {
@@ -31,6 +32,7 @@ struct RefinementResult {
   double boresight_rms = 0.0;  // rad of motor, the largest over the plants
   bool feasible = false;       // all constraints are met
   int steps = 0;               // that counted
+  int violations = 0;          // RefinementOptions::violations of it, where it was evaluated
   long evaluations = 0;        // of all figures on all plants, with gradients
 };
 

@@ -53,6 +53,12 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 // Fraction of the allowed Ms - 1 that the design uses. The rest is a reserve for plants other than
 // members and corners (docs/limit-cycles.md: what part of sampled plants keeps the constraints).
 constexpr double used_of_peak = 0.75;
+// N m s/rad: with so much friction the motor does not move.
+constexpr double holding_friction = 1e7;
+// Limits of the gain from encoder to motor torque with the motor held, over
+// Standstill::breakaway_stiffness, of which the first that leaves no limit cycle counts. With 5.5
+// some remained on the 70-m antenna, with 5 on the 34-m.
+constexpr std::array<double, 2> held_gains{5.0, 4.0};
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.
 constexpr PoleBounds pole_bounds{.slowest = 0.25, .damping = 0.05};
@@ -133,6 +139,11 @@ class Study {
                              options.sample_time, frequency,
                              goals.standstill->edges[i].encoder_gain);
     }
+    breakaway_stiffness_ = goals.standstill->breakaway_stiffness;
+    if (!breakaway_stiffness_) return;
+    plant::AntennaPlant with_held_motor = problem.plant;
+    with_held_motor.drive.viscous_friction = holding_friction;
+    add(motor_held_, "held motor", with_held_motor);
   }
 
   const SampledSetting& nominal() const { return settings_.front(); }
@@ -189,21 +200,16 @@ class Study {
         RefinementOptions options;
         options.steps = steps_from_loops;
         options.poles = pole_bounds;
-        const auto stated = std::span(at_standstill_).first(stated_slopes_);
         options.violations = violations_;
-        // Edges are left out before corners: simulation shows what that costs, nothing tests
-        // corners.
+        // Conditions at rest are left out before corners: simulation shows what that costs, nothing
+        // tests corners.
         for (const auto corners : with_and_without(corners_)) {
-          for (const auto edges : with_and_without(at_edges_)) {
+          for (const AtRest& at_rest : conditions_at_rest()) {
             if (found && found->feasible) break;
-            const RobustConstraints constraints({.plants = settings_,
-                                                 .at_standstill = stated,
-                                                 .at_edges = edges,
-                                                 .corners = corners},
-                                                refined_goals_, threads_);
-            if (!constraints.stable(start)) continue;
-            found = refine_controller(start, constraints, options);
-            limit.refined_from = start_->name;
+            if (auto next = refined(start, corners, at_rest, options)) {
+              found = std::move(next);
+              limit.refined_from = start_->name;
+            }
           }
         }
       }
@@ -313,6 +319,47 @@ class Study {
   }
 
  private:
+  // Against limit cycles at an edge of the encoder: its plants, and a limit of the held gain.
+  struct AtRest {
+    std::span<const SampledSetting> edges;
+    std::optional<double> breakaway_stiffness;
+  };
+  // From all conditions to none.
+  std::vector<AtRest> conditions_at_rest() const {
+    std::vector<AtRest> result;
+    if (!at_edges_.empty()) result.push_back({at_edges_, breakaway_stiffness_});
+    if (breakaway_stiffness_) result.push_back({{}, breakaway_stiffness_});
+    result.push_back({});
+    return result;
+  }
+  // None where the start is unstable on one of the plants. The held gain is limited to less where
+  // violations remain.
+  std::optional<RefinementResult> refined(const plant::StateSpace& start,
+                                          std::span<const SampledSetting> corners,
+                                          const AtRest& at_rest, RefinementOptions options) const {
+    const int max_evaluated = options.max_evaluated;
+    std::optional<RefinementResult> best;
+    for (const double gain : held_gains) {
+      SampledLoopGoals goals = refined_goals_;
+      if (at_rest.breakaway_stiffness) goals.held_gain = gain * *at_rest.breakaway_stiffness;
+      // A tighter limit is a better answer to violations than an earlier step.
+      const bool last = !goals.held_gain || gain == held_gains.back();
+      options.max_evaluated = last ? max_evaluated : 1;
+      const RobustConstraints constraints(
+          {.plants = settings_,
+           .at_standstill = std::span(at_standstill_).first(stated_slopes_),
+           .at_edges = at_rest.edges,
+           .corners = corners,
+           .motor_held = motor_held_},
+          goals, threads_);
+      if (!constraints.stable(start)) return std::nullopt;
+      RefinementResult next = refine_controller(start, constraints, options);
+      const bool done = last || !next.feasible || next.violations == 0;
+      if (!best || (next.feasible && next.violations < best->violations)) best = std::move(next);
+      if (done) break;
+    }
+    return best;
+  }
   RobustConstraints constraints() const {
     return {{.plants = settings_, .at_standstill = at_standstill_}, goals_, threads_};
   }
@@ -327,6 +374,8 @@ class Study {
   std::vector<SampledSetting> at_standstill_;
   std::size_t stated_slopes_ = 0;  // of these, the first: the constraint's own
   std::vector<SampledSetting> at_edges_, corners_;
+  std::vector<SampledSetting> motor_held_;  // by friction: at most one
+  std::optional<double> breakaway_stiffness_;
 };
 
 ControllerAgainstLimit against(const DescribedController& named, const Study& study,

@@ -84,21 +84,24 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
       centre_(sections_.parameters()),
       moving_(constraints.plants().size()),
       rated_(moving_ + constraints.at_standstill().size()),
-      limited_positions_(constraints.goals().position_peak ? rated_ : 0),
-      of_centre_(
-          VectorXd::Constant(static_cast<Index>(rated_ + constraints.at_edges().size() +
-                                                constraints.corners().size() + limited_positions_),
-                             peak_margin)),
-      corrections_(of_centre_) {
+      limited_positions_(constraints.goals().position_peak ? rated_ : 0) {
   std::vector<const SampledSetting*> settings;
   for (const auto group : {constraints.plants(), constraints.at_standstill(),
                            constraints.at_edges(), constraints.corners()}) {
     for (const SampledSetting& one : group) settings.push_back(&one);
   }
+  const std::size_t loops = settings.size();
+  if (constraints.goals().held_gain) {
+    for (const SampledSetting& one : constraints.motor_held()) settings.push_back(&one);
+  }
   spectra_.resize(settings.size());
   numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
     spectra_[i] = sampled_spectrum(*settings[i], frequency_);
   });
+  held_.assign(spectra_.begin() + static_cast<std::ptrdiff_t>(loops), spectra_.end());
+  spectra_.resize(loops);
+  corrections_ = of_centre_ = VectorXd::Constant(
+      static_cast<Index>(loops + limited_positions_ + held_.size()), peak_margin);
   references_ = constraints.rms(start).array().log();
   references_.tail(static_cast<Index>(rated_ - moving_)).array() +=
       std::log(allowance_at_standstill);
@@ -173,42 +176,47 @@ VectorXd RefinementProblem::moved(const std::vector<double>& point) const {
   return centre_ + directions_ * Eigen::Map<const VectorXd>(point.data(), directions_.cols());
 }
 
-std::vector<LoopFigures> RefinementProblem::figures(
+RefinementProblem::Figures RefinementProblem::figures(
     const ParallelSections::Response& response) const {
-  std::vector<LoopFigures> result(all());
+  Figures result{std::vector<LoopFigures>(all()), std::vector<LoopFigure>(held_.size())};
   numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
-    result[i] = loop_figures(spectra_[i], response.value);
+    result.loops[i] = loop_figures(spectra_[i], response.value);
   });
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    result.held[i] = held_gain(held_[i], response.value);
+  }
   return result;
 }
 
-VectorXd RefinementProblem::peaks(std::span<const LoopFigures> figures) const {
+VectorXd RefinementProblem::peaks(const Figures& figures) const {
   VectorXd result(corrections_.size());
   for (std::size_t i = 0; i < all(); ++i) {
-    result[static_cast<Index>(i)] = figures[i].sensitivity_peak.logarithm - std::log(peak_goal(i));
+    result[static_cast<Index>(i)] =
+        figures.loops[i].sensitivity_peak.logarithm - std::log(peak_goal(i));
   }
   const SampledLoopGoals& goals = constraints_.goals();
   for (std::size_t i = 0; i < limited_positions_; ++i) {
     const double goal = i < moving_ ? *goals.position_peak : goals.standstill_peak;
-    result[static_cast<Index>(all() + i)] = figures[i].position_peak.logarithm - std::log(goal);
+    result[static_cast<Index>(all() + i)] =
+        figures.loops[i].position_peak.logarithm - std::log(goal);
+  }
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    result[static_cast<Index>(all() + limited_positions_ + i)] =
+        figures.held[i].logarithm - std::log(*goals.held_gain);
   }
   return result;
 }
 
 // 2 Re sum(gradient * dK) per parameter: a column a figure.
 MatrixXd RefinementProblem::by_parameters(const std::array<MatrixXd, sensors>& derivatives,
-                                          std::span<const LoopFigures> figures) const {
-  const Index count = figures.front().boresight_rms.gradient.rows();
-  MatrixXd weights(2 * count, figures_a_plant * static_cast<Index>(figures.size()));
+                                          std::span<const LoopFigure* const> figures) const {
+  MatrixXd weights(2 * frequency_.size(), static_cast<Index>(figures.size()));
   MatrixXd result = MatrixXd::Zero(centre_.size(), weights.cols());
   for (Index sensor = 0; sensor < sensors; ++sensor) {
     Index column = 0;
-    for (const LoopFigures& one : figures) {
-      for (const LoopFigure* figure :
-           {&one.boresight_rms, &one.control_effort, &one.sensitivity_peak, &one.position_peak}) {
-        const auto gradient = figure->gradient.col(sensor);
-        weights.col(column++) << gradient.real(), -gradient.imag();
-      }
+    for (const LoopFigure* figure : figures) {
+      const auto gradient = figure->gradient.col(sensor);
+      weights.col(column++) << gradient.real(), -gradient.imag();
     }
     result(sections_.parameters_of(sensor), Eigen::all) +=
         2.0 * derivatives.at(static_cast<std::size_t>(sensor)).transpose() * weights;
@@ -238,8 +246,9 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
     values.constraints[row] = value - slack;
     store(values.constraint_gradients, row, gradient, -1.0);
   };
-  const std::vector<LoopFigures> of = figures(response);
-  const VectorXd peak = peaks(of) + corrections_;
+  const Figures found = figures(response);
+  const std::vector<LoopFigures>& of = found.loops;
+  const VectorXd peak = peaks(found) + corrections_;
   const auto efforts = static_cast<std::size_t>(peak.size());
   const double effort_goal = std::log(constraints_.goals().control_effort) - effort_margin;
   // Products of some plants at a time: more would not stay in the processor's cache.
@@ -247,8 +256,12 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
   numerics::for_each_index(blocks, constraints_.threads(), [&](std::size_t block) {
     const std::size_t first = block * plants_a_block;
     const std::size_t last = std::min(first + plants_a_block, all());
-    const MatrixXd gradients =
-        directions_.transpose() * by_parameters(derivatives, {&of[first], last - first});
+    std::vector<const LoopFigure*> figures;
+    for (std::size_t i = first; i < last; ++i) {
+      figures.insert(figures.end(), {&of[i].boresight_rms, &of[i].control_effort,
+                                     &of[i].sensitivity_peak, &of[i].position_peak});
+    }
+    const MatrixXd gradients = directions_.transpose() * by_parameters(derivatives, figures);
     for (std::size_t i = first; i < last; ++i) {
       const auto gradient = [&](Index figure) {
         return gradients.col(figures_a_plant * static_cast<Index>(i - first) + figure);
@@ -266,6 +279,12 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
       }
     }
   });
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const std::size_t row = all() + limited_positions_ + i;
+    const std::array figure{&std::as_const(found.held[i])};
+    constrain(row, peak[static_cast<Index>(row)],
+              directions_.transpose() * by_parameters(derivatives, figure));
+  }
   const auto stability = sections_.stability(parameters);
   for (Index k = 0; k < stability.conditions.size(); ++k) {
     constrain(efforts + moving_ + static_cast<std::size_t>(k), stability.conditions[k],

@@ -21,16 +21,19 @@ constexpr double unstable = 3.0;
 
 void validate(const SampledLoopGoals& goals) {
   if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.edge_peak > 1.0 &&
-      goals.position_peak.value_or(2.0) > 1.0 && goals.control_effort > 0.0) {
+      goals.position_peak.value_or(2.0) > 1.0 && goals.control_effort > 0.0 &&
+      goals.held_gain.value_or(1.0) > 0.0) {
     return;
   }
-  const std::string position =
-      goals.position_peak ? fmt::format(", {} of the position loop", *goals.position_peak) : "";
+  const auto if_given = [](const char* text, const std::optional<double>& value) {
+    return value ? fmt::format(fmt::runtime(text), *value) : std::string();
+  };
   throw InvalidInput(fmt::format(
-      "sampled loops: expected peaks of the sensitivity above 1 and a valve_effort above 0, found "
-      "{}, {} at standstill, {} at an edge{} and {} rad/s",
-      goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak, position,
-      goals.control_effort));
+      "sampled loops: expected peaks of the sensitivity above 1, a valve_effort and a held gain "
+      "above 0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}",
+      goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak,
+      if_given(", {} of the position loop", goals.position_peak), goals.control_effort,
+      if_given(", {} N.m/rad", goals.held_gain)));
 }
 
 RobustConstraints::RobustConstraints(const ConstrainedPlants& plants, const SampledLoopGoals& goals,
@@ -41,7 +44,8 @@ RobustConstraints::RobustConstraints(const ConstrainedPlants& plants, const Samp
     throw InvalidInput("sampled loops: expected at least one plant, found none");
   }
   const Eigen::ArrayXd& frequency = on_.plants.front().frequency();
-  for (const auto settings : {on_.plants, on_.at_standstill, on_.at_edges, on_.corners}) {
+  for (const auto settings :
+       {on_.plants, on_.at_standstill, on_.at_edges, on_.corners, on_.motor_held}) {
     for (const SampledSetting& one : settings) {
       if (one.frequency().size() != frequency.size() || (one.frequency() != frequency).any()) {
         throw InvalidInput("sampled loops: expected the same frequencies in every setting");
@@ -65,30 +69,31 @@ bool RobustConstraints::stable(const plant::StateSpace& controller) const {
 Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) const {
   const Eigen::ArrayXXcd response =
       SampledSetting::controller_response(controller, on_.plants.front().frequency());
+  using Peak = SampledPeak (SampledSetting::*)(const Eigen::ArrayXXcd&) const;
   struct Limited {
     const SampledSetting* setting;
-    bool position;
+    Peak peak;
     double goal;
   };
   std::vector<Limited> limited;
-  const auto limit = [&](std::span<const SampledSetting> settings, bool position, double goal) {
-    for (const SampledSetting& one : settings) limited.push_back({&one, position, goal});
+  const auto limit = [&](std::span<const SampledSetting> settings, Peak peak, double goal) {
+    for (const SampledSetting& one : settings) limited.push_back({&one, peak, goal});
   };
-  limit(on_.plants, false, goals_.sensitivity_peak);
-  limit(on_.at_standstill, false, goals_.standstill_peak);
-  limit(on_.at_edges, false, goals_.edge_peak);
-  limit(on_.corners, false, goals_.sensitivity_peak);
+  limit(on_.plants, &SampledSetting::highest_peak, goals_.sensitivity_peak);
+  limit(on_.at_standstill, &SampledSetting::highest_peak, goals_.standstill_peak);
+  limit(on_.at_edges, &SampledSetting::highest_peak, goals_.edge_peak);
+  limit(on_.corners, &SampledSetting::highest_peak, goals_.sensitivity_peak);
   if (goals_.position_peak) {
-    limit(on_.plants, true, *goals_.position_peak);
-    limit(on_.at_standstill, true, goals_.standstill_peak);
+    limit(on_.plants, &SampledSetting::highest_position_peak, *goals_.position_peak);
+    limit(on_.at_standstill, &SampledSetting::highest_position_peak, goals_.standstill_peak);
   }
+  if (goals_.held_gain)
+    limit(on_.motor_held, &SampledSetting::highest_held_gain, *goals_.held_gain);
   Eigen::VectorXd ratios(static_cast<Eigen::Index>(limited.size()));
   numerics::for_each_index(limited.size(), threads_, [&](std::size_t i) {
-    const auto& [setting, position, goal] = limited[i];
-    const double peak =
-        (position ? setting->highest_position_peak(response) : setting->highest_peak(response))
-            .magnitude;
-    ratios[static_cast<Eigen::Index>(i)] = std::isfinite(peak) ? std::log(peak / goal) : HUGE_VAL;
+    const auto& [setting, peak, goal] = limited[i];
+    const double found = (setting->*peak)(response).magnitude;
+    ratios[static_cast<Eigen::Index>(i)] = std::isfinite(found) ? std::log(found / goal) : HUGE_VAL;
   });
   return ratios;
 }

@@ -212,12 +212,25 @@ SampledPeak SampledSetting::highest_peak(const Eigen::ArrayXXcd& controller_resp
   return highest_of(-(1.0 - (controller_response * response_).rowwise().sum()).abs().log());
 }
 
+// 1 + L of tachometer and torque.
+Eigen::ArrayXcd SampledSetting::inner_loops(const Eigen::ArrayXXcd& controller_response) const {
+  return 1.0 - controller_response.col(tachometer) * response_.col(tachometer) -
+         controller_response.col(motor_torque) * response_.col(motor_torque);
+}
+
 // S = (1 + L of the other sensors) / (1 + L of all).
 SampledPeak SampledSetting::highest_position_peak(
     const Eigen::ArrayXXcd& controller_response) const {
-  const Eigen::ArrayXXcd loops = controller_response * response_;
-  const Eigen::ArrayXcd others = 1.0 - loops.col(tachometer) - loops.col(motor_torque);
-  return highest_of((others / (others - loops.col(encoder))).abs().log());
+  const Eigen::ArrayXcd others = inner_loops(controller_response);
+  const Eigen::ArrayXcd all = others - controller_response.col(encoder) * response_.col(encoder);
+  return highest_of((others / all).abs().log());
+}
+
+SampledPeak SampledSetting::highest_held_gain(const Eigen::ArrayXXcd& controller_response) const {
+  return highest_of((controller_response.col(encoder) * response_.col(motor_torque) /
+                     inner_loops(controller_response))
+                        .abs()
+                        .log());
 }
 
 // Of ln |S| at the frequencies: the highest of all local maxima, each interpolated by a parabola.

@@ -87,6 +87,9 @@ class SampledSetting {
   SampledPeak highest_peak(const Eigen::ArrayXXcd& controller_response) const;
   /// The same of the position loop: cut at the encoder alone, with tachometer and torque fed back.
   SampledPeak highest_position_peak(const Eigen::ArrayXXcd& controller_response) const;
+  /// The same of the gain from the encoder's reading to the motor torque, N m/rad, with tachometer
+  /// and torque fed back: what the drive does to a motor that friction holds.
+  SampledPeak highest_held_gain(const Eigen::ArrayXXcd& controller_response) const;
 
  private:
   struct ClosedLoop;
@@ -96,6 +99,7 @@ class SampledSetting {
   double boresight_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
                             double direct_variance) const;
   SampledPeak highest_of(const Eigen::ArrayXd& level) const;
+  Eigen::ArrayXcd inner_loops(const Eigen::ArrayXXcd& controller_response) const;
 
   std::string name_;
   plant::AntennaPlant plant_;

@@ -17,7 +17,7 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 constexpr Index sensors = 3;
-constexpr Index tachometer = 0, motor_torque = 2;
+constexpr Index tachometer = 0, encoder = 1, motor_torque = 2;
 // Of a variance: what is left out of the densities.
 constexpr double negligible = 1e-9;
 // p of the smooth peak: it exceeds the largest |S| by less than 1 %.
@@ -182,6 +182,20 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
   const ArrayXXcd noisy = closed.conjugate().rowwise() * spectrum.noise.transpose().cast<Complex>();
   const double effort = (spectrum.weights * (closed * noisy).rowwise().sum().real()).sum();
   result.control_effort = {0.5 * std::log(effort), chained(noisy, effort)};
+  return result;
+}
+
+LoopFigure held_gain(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
+  const ArrayXcd inner = inner_loops(spectrum, controller);
+  const SmoothPeak peak =
+      smooth_peak(controller.col(encoder) * spectrum.response.col(motor_torque) / inner);
+  LoopFigure result{peak.logarithm, ArrayXXcd(controller.rows(), sensors)};
+  // An encoder that is not used at a frequency has no gain there to change.
+  result.gradient.col(encoder) =
+      (peak.fractions > 0.0).select(peak.fractions / controller.col(encoder), 0.0);
+  for (const Index sensor : {tachometer, motor_torque}) {
+    result.gradient.col(sensor) = spectrum.response.col(sensor) * peak.fractions / inner;
+  }
   return result;
 }
 

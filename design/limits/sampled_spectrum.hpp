@@ -51,6 +51,10 @@ struct LoopFigures {
 
 LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
 
+/// As sensitivity_peak, of the gain from encoder to motor torque in
+/// SampledSetting::highest_held_gain.
+LoopFigure held_gain(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
+
 /// Gauss-Newton curvature of the boresight's mean square, a Hermitian matrix H per frequency, by
 /// rows: a small change dK of the controller's response (a column per frequency) adds dK^H H dK,
 /// summed over the frequencies and relative to the mean square, beyond what the gradient says. The

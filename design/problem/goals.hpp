@@ -22,8 +22,10 @@ struct Standstill {
     double friction = 0.0;      // N m s/rad, instead of the plant's viscous friction
     double encoder_gain = 1.0;  // by which the reading counts more than the angle
   };
-  /// See encoder_edges. Only the refinement of a state space uses them (pointing_limit).
+  /// See encoder_edges and breakaway_stiffness. Only the refinement of a state space uses them
+  /// (pointing_limit).
   std::vector<Edge> edges = {};
+  std::optional<double> breakaway_stiffness = std::nullopt;  // N m/rad of motor
 };
 
 /// The constraints of a design. Those per break are in the order of control::loop_breaks.

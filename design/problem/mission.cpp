@@ -34,6 +34,7 @@ Constraints constraints(const Mission& mission) {
   if (goals.standstill) {
     goals.standstill->friction = standstill_friction(mission.antenna);
     goals.standstill->edges = encoder_edges(mission.antenna);
+    goals.standstill->breakaway_stiffness = breakaway_stiffness(mission.antenna);
   }
   if (!mission.limits_gusts) return goals;
   goals.gust_torque = plant::available_wind_torque(mission.antenna);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -50,6 +51,12 @@ std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna) {
          2.0 / (std::numbers::pi * edge_amplitude)});
   }
   return edges;
+}
+
+std::optional<double> breakaway_stiffness(const plant::Antenna& antenna) {
+  if (standstill_friction(antenna).empty()) return std::nullopt;
+  const plant::FrictionCurve& curve = antenna.friction_curve;
+  return std::max(curve.breakaway_torque, curve.coulomb_torque) / encoder_step(antenna);
 }
 
 }  // namespace boresight::design

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <boresight/design/problem/goals.hpp>
@@ -27,5 +28,11 @@ std::vector<double> standstill_friction(const plant::Antenna& antenna);
 /// in which simulated loops limit-cycled. Empty where standstill_friction is.
 /// @throws as standstill_friction.
 std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna);
+
+/// Breakaway torque over the angle of the motor (N m/rad) that is one step of the encoder: the gain
+/// from encoder to motor torque with which a change by one code frees a motor that friction holds.
+/// None where standstill_friction is empty.
+/// @throws as standstill_friction.
+std::optional<double> breakaway_stiffness(const plant::Antenna& antenna);
 
 }  // namespace boresight::design

@@ -266,6 +266,41 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
   EXPECT_GT(poles.damping, 0.048);
 }
 
+// The gain on a motor that friction holds is limited to less where violations remain.
+TEST(PointingLimit, TheRefinedHoldsAMotorThatFrictionHolds) {
+  const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
+  const TrackingProblem problem = problem_with_torque_noise();
+  const DescribedController loops{"lags", reference::lag_loops()};
+  plant::AntennaPlant plant = problem.plant;
+  plant.drive.viscous_friction = 1e7;
+  const SampledSetting held("held", plant, fit_wind_filter(problem), problem.noise, 0.02,
+                            plant::frequency_grid(plant, 1e-3, 24.9, 100));
+  const auto gain = [&](const plant::StateSpace& controller) {
+    return held.highest_held_gain(SampledSetting::controller_response(controller, held.frequency()))
+        .magnitude;
+  };
+  const plant::StateSpace start =
+      control::sampled_loop(held.problem().plant, loops.controller, 0.02).controller;
+  const double stiffness = 0.9 * gain(start) / 5.0;
+  Constraints standing;
+  standing.standstill = Standstill{3.0, {100.0}, {{60.0, 2.0}}, stiffness};
+  // Counts one in every controller of the first search.
+  std::vector<double> counted;
+  const auto violations = [&](const plant::StateSpace& one, int) {
+    counted.push_back(gain(one));
+    return counted.size() < 2 ? 1 : 0;
+  };
+  const auto limit = pointing_limit(problem, standing, members, {},
+                                    {.threads = 2, .start = loops, .violations = violations});
+  ASSERT_TRUE(limit.refined);
+  EXPECT_EQ(limit.refined_from, "lags");
+  ASSERT_EQ(counted.size(), 2U);
+  EXPECT_LT(counted[0], 1.002 * 5.0 * stiffness);
+  EXPECT_GT(counted[0], 1.01 * 4.0 * stiffness);
+  EXPECT_LT(counted[1], 1.002 * 4.0 * stiffness);
+  EXPECT_EQ(gain(limit.refined->controller), counted[1]);
+}
+
 // Friction slopes of the constraint, and larger ones up to ten times.
 TEST(PointingLimit, TheRobustifiedIsStableWhileFrictionHoldsTheMotor) {
   const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};

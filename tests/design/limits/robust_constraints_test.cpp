@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
+#include <Eigen/LU>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -153,6 +155,41 @@ TEST(RobustConstraints, ThePositionLoopIsCutAtTheEncoderAlone) {
   EXPECT_DOUBLE_EQ(rms[1], held.front().boresight_rms(controller));
 }
 
+// The gain is that of the loop without its encoder, from the encoder's input of the controller.
+TEST(RobustConstraints, LimitTheGainFromEncoderToTorqueOfAHeldMotor) {
+  const Plants plants;
+  const auto [moving, held, none, controller, response] = loops_on(plants);
+  const std::vector<SampledSetting> motor_held{plants.with_friction(1e7)};
+  const plant::StateSpace& plant = motor_held.front().sampled().plant;
+  const plant::StateSpace all = from_sensors(controller);
+  const Eigen::Index n = plant.a.rows(), m = all.a.rows();
+  const SampledPeak peak = motor_held.front().highest_held_gain(response);
+  const auto z = std::polar(1.0, peak.frequency * 0.02);
+  Eigen::MatrixXd a(n + m, n + m), feedback = all.d, into = all.b;
+  feedback.col(1).setZero();
+  into.col(1).setZero();
+  a << plant.a + plant.b * feedback * plant.c, plant.b * all.c, into * plant.c, all.a;
+  Eigen::VectorXd b(n + m);
+  b << plant.b * all.d(0, 1), all.b.col(1);
+  const Eigen::VectorXcd state = (z * Eigen::MatrixXcd::Identity(n + m, n + m) - a)
+                                     .fullPivLu()
+                                     .solve(b.cast<std::complex<double>>());
+  EXPECT_NEAR(std::abs((plant.c.row(2) * state.head(n)).value()), peak.magnitude,
+              1e-3 * peak.magnitude);
+
+  SampledLoopGoals goals{1e3, 1e3, 1e3, 1e3};
+  goals.held_gain = peak.magnitude / 1.2;
+  const RobustConstraints limited({.plants = moving, .motor_held = motor_held}, goals, 1);
+  EXPECT_NEAR(limited.excess(controller), std::log(1.2), 2e-3);
+  ASSERT_EQ(limited.peaks(controller).size(), 2);
+  EXPECT_NEAR(limited.peaks(controller)[1], std::log(1.2), 1e-12);
+  goals.held_gain.reset();
+  EXPECT_EQ(RobustConstraints({.plants = moving, .motor_held = motor_held}, goals, 1)
+                .peaks(controller)
+                .size(),
+            1);
+}
+
 TEST(RobustConstraints, AnUnstableLoopExceedsEveryGoal) {
   const Plants plants;
   const std::vector<SampledSetting> moving{plants.with_friction(0.9)}, none;
@@ -192,8 +229,10 @@ TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
               ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
   EXPECT_THAT(
       constraints(one, none, {2.0, 0.0, 3.0}),
-      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort above 0, found 2, 3 at standstill, 2.5 "
-                                            "at an edge and 0 rad/s")));
+      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort and a held gain above 0, found 2, 3 at "
+                                            "standstill, 2.5 at an edge and 0 rad/s")));
+  EXPECT_THAT(constraints(one, none, {2.0, 0.6, 3.0, 2.5, 2.0, -4.0}),
+              ThrowsMessage<InvalidInput>(HasSubstr("0.6 rad/s, -4 N.m/rad")));
 }
 
 }  // namespace

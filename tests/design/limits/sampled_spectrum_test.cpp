@@ -60,6 +60,9 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
   constexpr double step = 1e-4;
   const LoopFigures above = loop_figures(loop.spectrum, loop.response + step * change);
   const LoopFigures below = loop_figures(loop.spectrum, loop.response - step * change);
+  const auto held = [&](double by) {
+    return held_gain(loop.spectrum, loop.response + by * change);
+  };
   const auto expect_slope = [&](const LoopFigure& at, const LoopFigure& up,
                                 const LoopFigure& down) {
     const double slope = 2.0 * (at.gradient * change).sum().real();
@@ -69,12 +72,28 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
   expect_slope(found.control_effort, above.control_effort, below.control_effort);
   expect_slope(found.sensitivity_peak, above.sensitivity_peak, below.sensitivity_peak);
   expect_slope(found.position_peak, above.position_peak, below.position_peak);
+  expect_slope(held(0.0), held(step), held(-step));
   // From above, by less than 1 %: a sum of powers over all frequencies.
   const auto exact = [&](const SampledPeak& peak) { return std::log(peak.magnitude); };
   const SampledPeak position = loop.setting.highest_position_peak(loop.response);
   EXPECT_NEAR(found.position_peak.logarithm, exact(position), 0.01);
   EXPECT_NEAR(found.sensitivity_peak.logarithm, exact(loop.setting.highest_peak(loop.response)),
               0.01);
+  EXPECT_NEAR(held(0.0).logarithm, exact(loop.setting.highest_held_gain(loop.response)), 0.01);
+}
+
+// A controller that does not use the encoder above some frequency has a finite gradient there.
+TEST(SampledSpectrum, HeldGainIsOfTheEncoderAlone) {
+  Loop loop;
+  const Eigen::Index unused = loop.response.rows() / 2;
+  loop.response.col(1).tail(unused).setZero();
+  const LoopFigure found = held_gain(loop.spectrum, loop.response);
+  EXPECT_TRUE(found.gradient.isFinite().all());
+  // It is proportional to the encoder's response.
+  EXPECT_NEAR(2.0 * (found.gradient.col(1) * loop.response.col(1)).sum().real(), 1.0, 1e-9);
+  loop.response.col(1) *= 3.0;
+  EXPECT_NEAR(held_gain(loop.spectrum, loop.response).logarithm, found.logarithm + std::log(3.0),
+              1e-12);
 }
 
 // Without a response of the plant the effort is a square of the controller: gradient and curvature

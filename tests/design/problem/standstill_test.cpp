@@ -62,6 +62,23 @@ TEST(EncoderEdges, AreDescribingFunctionsOfAQuarterOfAStep) {
   EXPECT_TRUE(encoder_edges(antenna_with_encoder_noise(0.0)).empty());
 }
 
+// A finer encoder needs more gain to free the motor by one step.
+TEST(BreakawayStiffness, IsTheBreakawayTorquePerEncoderStep) {
+  plant::Antenna antenna = plant::demo_antenna();
+  const double step = std::sqrt(12.0) * gear_ratio(antenna) * antenna.sensors.encoder_noise;
+  ASSERT_GE(antenna.friction_curve.breakaway_torque, antenna.friction_curve.coulomb_torque);
+  EXPECT_NEAR(breakaway_stiffness(antenna).value() * step, antenna.friction_curve.breakaway_torque,
+              1e-12);
+  EXPECT_NEAR(breakaway_stiffness(antenna_with_encoder_noise(0.5)).value(),
+              2.0 * breakaway_stiffness(antenna).value(),
+              1e-12 * breakaway_stiffness(antenna).value());
+  // Without stiction friction holds by its Coulomb torque.
+  antenna.friction_curve.breakaway_torque = 0.0;
+  EXPECT_NEAR(breakaway_stiffness(antenna).value() * step, antenna.friction_curve.coulomb_torque,
+              1e-12);
+  EXPECT_FALSE(breakaway_stiffness(antenna_with_encoder_noise(0.0)).has_value());
+}
+
 TEST(StandstillFriction, FallsWithTheEncoderStep) {
   // A coarser encoder hides limit cycles of larger amplitude, in which friction damps less.
   const double own = standstill_friction(antenna_with_encoder_noise(1.0)).back();
@@ -88,6 +105,7 @@ TEST(StandstillFriction, GoesIntoTheConstraintsOfAMissionThatAsks) {
   ASSERT_FALSE(goals.standstill->edges.empty());
   EXPECT_EQ(goals.standstill->edges.front().friction,
             encoder_edges(mission.antenna).front().friction);
+  EXPECT_EQ(goals.standstill->breakaway_stiffness, breakaway_stiffness(mission.antenna));
 }
 
 }  // namespace

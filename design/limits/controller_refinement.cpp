@@ -20,6 +20,8 @@ constexpr int max_corrections = 2;
 // Logarithmic: largest violation of the search's own constraints in an accepted step.
 constexpr double max_violation = 0.01;
 constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5, growth = 2.0;
+// Steps at which RefinementOptions::violations is evaluated.
+constexpr int max_evaluated = 6;
 constexpr std::size_t first_stride = 2;
 constexpr double worthwhile = 1e-4;
 
@@ -38,7 +40,8 @@ class Refinement {
 
   RefinementResult run(const plant::StateSpace& start) {
     double violation = constraints_.excess(start);
-    RefinementResult result{start, constraints_.largest_rms(start), !(violation > 0.0)};
+    RefinementResult result{
+        start, constraints_.largest_rms(start), !(violation > 0.0), 0, std::nullopt, 0};
     double radius = first_radius;
     double objective = 0.0;
     int corrected = 0;
@@ -109,7 +112,7 @@ class Refinement {
     int least = std::numeric_limits<int>::max();
     std::size_t best = path.size() - 1, place = best, stride = first_stride;
     std::size_t later = path.size();  // the next evaluated step after `best`: it has violations
-    for (int i = 0; i < options_.max_evaluated; ++i) {
+    for (int i = 0; i < max_evaluated; ++i) {
       const int violations = options_.violations(path[place].controller, std::max(least, 1));
       if (violations == 0 || violations < least) best = place;
       if (violations > 0) later = place;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/robust_constraints.hpp>
@@ -19,21 +20,20 @@ struct RefinementOptions {
   /// Number of violations of a requirement that is too expensive to evaluate at every step, such as
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
   /// 2, 6, 14 and so on steps before it, down to the first, until a step has none. The interval
-  /// from that step to the next evaluated one with violations is then halved. `enough` is
-  /// the least count so far, at least 1. The result is the last step found without violations, else
-  /// the one with the fewest, the latest of several. Empty, or without an accepted step that meets
-  /// every constraint: the last step.
+  /// from that step to the next evaluated one with violations is then halved. At most 6
+  /// evaluations; `enough` is the least count so far, at least 1. The result is the last step found
+  /// without violations, else the one with the fewest, the latest of several. Empty, or without an
+  /// accepted step that meets every constraint: the last step.
   CountViolations violations = {};
-  int max_evaluated = 6;  // steps at which they are counted
 };
 
 struct RefinementResult {
   plant::StateSpace controller;
-  double boresight_rms = 0.0;  // rad of motor, the largest over the plants
-  bool feasible = false;       // all constraints are met
-  int steps = 0;               // that counted
-  int violations = 0;          // RefinementOptions::violations of it, where it was evaluated
-  long evaluations = 0;        // of all figures on all plants, with gradients
+  double boresight_rms = 0.0;                    // rad of motor, the largest over the plants
+  bool feasible = false;                         // all constraints are met
+  int steps = 0;                                 // that counted
+  std::optional<int> violations = std::nullopt;  // RefinementOptions::violations, if evaluated
+  long evaluations = 0;                          // of all figures on all plants, with gradients
 };
 
 /// Fixed-order synthesis over the whole ensemble by gradient: a controller of the order of `start`
@@ -44,7 +44,7 @@ struct RefinementResult {
 /// (RefinementProblem::objective). It includes the rms on each plant at standstill, which
 /// represents wind with much friction; otherwise the result would suit the frictionless antenna
 /// only. Plants at an edge of the encoder and corners must be stable and limit |S| at the valve, no
-/// more.
+/// more; those with a locked motor limit the gain on it alone.
 ///
 /// Each step is a search by sequential quadratic programming within a box about the present
 /// controller (RefinementProblem). A step is accepted if the exact quantities of RobustConstraints

@@ -54,11 +54,11 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 // members and corners (docs/limit-cycles.md: what part of sampled plants keeps the constraints).
 constexpr double used_of_peak = 0.75;
 // N m s/rad: with so much friction the motor does not move.
-constexpr double holding_friction = 1e7;
-// Limits of the gain from encoder to motor torque with the motor held, over
+constexpr double locking_friction = 1e7;
+// Limits of the gain from encoder to motor torque with the motor locked, over
 // Standstill::breakaway_stiffness, of which the first that leaves no limit cycle counts. With 5.5
 // some remained on the 70-m antenna, with 5 on the 34-m.
-constexpr std::array<double, 2> held_gains{5.0, 4.0};
+constexpr std::array<double, 2> locked_motor_gains{5.0, 4.0};
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.
 constexpr PoleBounds pole_bounds{.slowest = 0.25, .damping = 0.05};
@@ -141,9 +141,9 @@ class Study {
     }
     breakaway_stiffness_ = goals.standstill->breakaway_stiffness;
     if (!breakaway_stiffness_) return;
-    plant::AntennaPlant with_held_motor = problem.plant;
-    with_held_motor.drive.viscous_friction = holding_friction;
-    add(motor_held_, "held motor", with_held_motor);
+    plant::AntennaPlant with_locked_motor = problem.plant;
+    with_locked_motor.drive.viscous_friction = locking_friction;
+    add(motor_locked_, "locked motor", with_locked_motor);
   }
 
   const SampledSetting& nominal() const { return settings_.front(); }
@@ -319,7 +319,8 @@ class Study {
   }
 
  private:
-  // Against limit cycles at an edge of the encoder: its plants, and a limit of the held gain.
+  // Against limit cycles at an edge of the encoder: its plants, and a limit of the gain on a
+  // locked motor.
   struct AtRest {
     std::span<const SampledSetting> edges;
     std::optional<double> breakaway_stiffness;
@@ -332,31 +333,33 @@ class Study {
     result.push_back({});
     return result;
   }
-  // None where the start is unstable on one of the plants. The held gain is limited to less where
-  // violations remain.
+  // None where the start is unstable on one of the plants. The gain on a locked motor is limited to
+  // less where violations remain.
   std::optional<RefinementResult> refined(const plant::StateSpace& start,
                                           std::span<const SampledSetting> corners,
-                                          const AtRest& at_rest, RefinementOptions options) const {
-    const int max_evaluated = options.max_evaluated;
+                                          const AtRest& at_rest,
+                                          const RefinementOptions& options) const {
     std::optional<RefinementResult> best;
-    for (const double gain : held_gains) {
+    for (const double gain : locked_motor_gains) {
       SampledLoopGoals goals = refined_goals_;
-      if (at_rest.breakaway_stiffness) goals.held_gain = gain * *at_rest.breakaway_stiffness;
-      // A tighter limit is a better answer to violations than an earlier step.
-      const bool last = !goals.held_gain || gain == held_gains.back();
-      options.max_evaluated = last ? max_evaluated : 1;
+      if (at_rest.breakaway_stiffness) {
+        goals.locked_motor_gain = gain * *at_rest.breakaway_stiffness;
+      }
       const RobustConstraints constraints(
           {.plants = settings_,
            .at_standstill = std::span(at_standstill_).first(stated_slopes_),
            .at_edges = at_rest.edges,
            .corners = corners,
-           .motor_held = motor_held_},
+           .motor_locked = motor_locked_},
           goals, threads_);
       if (!constraints.stable(start)) return std::nullopt;
       RefinementResult next = refine_controller(start, constraints, options);
-      const bool done = last || !next.feasible || next.violations == 0;
-      if (!best || (next.feasible && next.violations < best->violations)) best = std::move(next);
-      if (done) break;
+      const bool violated = next.feasible && next.violations.value_or(0) > 0;
+      constexpr int not_counted = std::numeric_limits<int>::max();
+      if (!best || next.violations.value_or(not_counted) < best->violations.value_or(not_counted)) {
+        best = std::move(next);
+      }
+      if (!goals.locked_motor_gain || !violated) break;
     }
     return best;
   }
@@ -374,7 +377,7 @@ class Study {
   std::vector<SampledSetting> at_standstill_;
   std::size_t stated_slopes_ = 0;  // of these, the first: the constraint's own
   std::vector<SampledSetting> at_edges_, corners_;
-  std::vector<SampledSetting> motor_held_;  // by friction: at most one
+  std::vector<SampledSetting> motor_locked_;  // by friction: at most one
   std::optional<double> breakaway_stiffness_;
 };
 

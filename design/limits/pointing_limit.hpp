@@ -90,11 +90,14 @@ struct PointingLimit {
   /// pairs about the hydraulic mode. Its constraints: Ms at the valve on members and corners, with
   /// a reserve for other plants; Ms of the position loop, cut at the encoder; the effort; stability
   /// and both peaks at the friction slopes of Constraints::standstill; |S| at its edges of the
-  /// encoder; and bounds of the poles. Where the start is unstable on them or no step meets them,
-  /// the edges are left out, else the corners, else both. Of the steps evaluated it has the fewest
-  /// PointingLimitOptions::violations. If no start is given, or it has integrals or is unstable
-  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
-  /// LQG, where poles are repeated, and where no step meets every constraint.
+  /// encoder; the gain from encoder to motor torque with the motor locked, 5 times
+  /// Standstill::breakaway_stiffness, or 4 times if violations remain; and bounds of the poles.
+  /// Where the start is unstable on the edges or no step meets all of these, the edges are left
+  /// out, then the limit of that gain too. If that fails, the same is tried without corners. Of the
+  /// steps evaluated it has the fewest PointingLimitOptions::violations. If no start is given, or
+  /// it has integrals or is unstable somewhere, it starts from the robustified LQG, under that
+  /// one's constraints. None without that LQG, where poles are repeated, and where no step meets
+  /// every constraint.
   std::optional<SampledDesign> refined;
   /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
   std::string refined_from;

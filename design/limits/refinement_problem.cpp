@@ -91,8 +91,8 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
     for (const SampledSetting& one : group) settings.push_back(&one);
   }
   const std::size_t loops = settings.size();
-  if (constraints.goals().held_gain) {
-    for (const SampledSetting& one : constraints.motor_held()) settings.push_back(&one);
+  if (constraints.goals().locked_motor_gain) {
+    for (const SampledSetting& one : constraints.motor_locked()) settings.push_back(&one);
   }
   spectra_.resize(settings.size());
   numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
@@ -183,7 +183,7 @@ RefinementProblem::Figures RefinementProblem::figures(
     result.loops[i] = loop_figures(spectra_[i], response.value);
   });
   for (std::size_t i = 0; i < held_.size(); ++i) {
-    result.held[i] = held_gain(held_[i], response.value);
+    result.held[i] = locked_motor_gain(held_[i], response.value);
   }
   return result;
 }
@@ -202,7 +202,7 @@ VectorXd RefinementProblem::peaks(const Figures& figures) const {
   }
   for (std::size_t i = 0; i < held_.size(); ++i) {
     result[static_cast<Index>(all() + limited_positions_ + i)] =
-        figures.held[i].logarithm - std::log(*goals.held_gain);
+        figures.held[i].logarithm - std::log(*goals.locked_motor_gain);
   }
   return result;
 }

@@ -22,18 +22,18 @@ constexpr double unstable = 3.0;
 void validate(const SampledLoopGoals& goals) {
   if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.edge_peak > 1.0 &&
       goals.position_peak.value_or(2.0) > 1.0 && goals.control_effort > 0.0 &&
-      goals.held_gain.value_or(1.0) > 0.0) {
+      goals.locked_motor_gain.value_or(1.0) > 0.0) {
     return;
   }
   const auto if_given = [](const char* text, const std::optional<double>& value) {
     return value ? fmt::format(fmt::runtime(text), *value) : std::string();
   };
   throw InvalidInput(fmt::format(
-      "sampled loops: expected peaks of the sensitivity above 1, a valve_effort and a held gain "
+      "sampled loops: expected peaks of the sensitivity above 1, a valve_effort and a gain on a "
       "above 0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}",
       goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak,
       if_given(", {} of the position loop", goals.position_peak), goals.control_effort,
-      if_given(", {} N.m/rad", goals.held_gain)));
+      if_given(", {} N.m/rad", goals.locked_motor_gain)));
 }
 
 RobustConstraints::RobustConstraints(const ConstrainedPlants& plants, const SampledLoopGoals& goals,
@@ -45,7 +45,7 @@ RobustConstraints::RobustConstraints(const ConstrainedPlants& plants, const Samp
   }
   const Eigen::ArrayXd& frequency = on_.plants.front().frequency();
   for (const auto settings :
-       {on_.plants, on_.at_standstill, on_.at_edges, on_.corners, on_.motor_held}) {
+       {on_.plants, on_.at_standstill, on_.at_edges, on_.corners, on_.motor_locked}) {
     for (const SampledSetting& one : settings) {
       if (one.frequency().size() != frequency.size() || (one.frequency() != frequency).any()) {
         throw InvalidInput("sampled loops: expected the same frequencies in every setting");
@@ -87,8 +87,8 @@ Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) co
     limit(on_.plants, &SampledSetting::highest_position_peak, *goals_.position_peak);
     limit(on_.at_standstill, &SampledSetting::highest_position_peak, goals_.standstill_peak);
   }
-  if (goals_.held_gain)
-    limit(on_.motor_held, &SampledSetting::highest_held_gain, *goals_.held_gain);
+  if (goals_.locked_motor_gain)
+    limit(on_.motor_locked, &SampledSetting::highest_locked_motor_gain, *goals_.locked_motor_gain);
   Eigen::VectorXd ratios(static_cast<Eigen::Index>(limited.size()));
   numerics::for_each_index(limited.size(), threads_, [&](std::size_t i) {
     const auto& [setting, peak, goal] = limited[i];

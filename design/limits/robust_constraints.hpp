@@ -21,15 +21,16 @@ struct SampledLoopGoals {
   /// Largest |S| of the position loop, cut at the encoder alone, and at standstill standstill_peak.
   /// Not limited without.
   std::optional<double> position_peak = std::nullopt;
-  /// Largest gain from encoder to motor torque (SampledSetting::highest_held_gain), N m/rad, on
-  /// plants whose motor friction holds. Not limited without.
-  std::optional<double> held_gain = std::nullopt;
+  /// Largest gain from encoder to motor torque (SampledSetting::highest_locked_motor_gain), N
+  /// m/rad, on plants whose motor friction holds. Not limited without.
+  std::optional<double> locked_motor_gain = std::nullopt;
 };
 
 /// @throws InvalidInput for a peak not above 1 and an effort or gain not above 0.
 void validate(const SampledLoopGoals& goals);
 
-/// The plants of RobustConstraints. Every loop but those of motor_held must be stable, and within:
+/// The plants of RobustConstraints. Every loop but those of motor_locked must be stable, and
+/// within:
 struct ConstrainedPlants {
   /// sensitivity_peak, position_peak, control_effort.
   std::span<const SampledSetting> plants;
@@ -37,8 +38,8 @@ struct ConstrainedPlants {
   std::span<const SampledSetting> at_standstill = {};
   std::span<const SampledSetting> at_edges = {};  // edge_peak
   std::span<const SampledSetting> corners = {};   // sensitivity_peak
-  /// held_gain. The motor does not move: stability is that of the plants at standstill.
-  std::span<const SampledSetting> motor_held = {};
+  /// locked_motor_gain. The motor does not move: stability is that of the plants at standstill.
+  std::span<const SampledSetting> motor_locked = {};
 };
 
 /// The goals over plants: every loop is stable and within them, and the controller is stable by
@@ -55,7 +56,7 @@ class RobustConstraints {
   std::span<const SampledSetting> at_standstill() const { return on_.at_standstill; }
   std::span<const SampledSetting> at_edges() const { return on_.at_edges; }
   std::span<const SampledSetting> corners() const { return on_.corners; }
-  std::span<const SampledSetting> motor_held() const { return on_.motor_held; }
+  std::span<const SampledSetting> motor_locked() const { return on_.motor_locked; }
   const SampledLoopGoals& goals() const { return goals_; }
   unsigned threads() const { return threads_; }
 

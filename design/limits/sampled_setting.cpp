@@ -212,23 +212,18 @@ SampledPeak SampledSetting::highest_peak(const Eigen::ArrayXXcd& controller_resp
   return highest_of(-(1.0 - (controller_response * response_).rowwise().sum()).abs().log());
 }
 
-// 1 + L of tachometer and torque.
-Eigen::ArrayXcd SampledSetting::inner_loops(const Eigen::ArrayXXcd& controller_response) const {
-  return 1.0 - controller_response.col(tachometer) * response_.col(tachometer) -
-         controller_response.col(motor_torque) * response_.col(motor_torque);
-}
-
 // S = (1 + L of the other sensors) / (1 + L of all).
 SampledPeak SampledSetting::highest_position_peak(
     const Eigen::ArrayXXcd& controller_response) const {
-  const Eigen::ArrayXcd others = inner_loops(controller_response);
+  const Eigen::ArrayXcd others = inner_return_difference(response_, controller_response);
   const Eigen::ArrayXcd all = others - controller_response.col(encoder) * response_.col(encoder);
   return highest_of((others / all).abs().log());
 }
 
-SampledPeak SampledSetting::highest_held_gain(const Eigen::ArrayXXcd& controller_response) const {
+SampledPeak SampledSetting::highest_locked_motor_gain(
+    const Eigen::ArrayXXcd& controller_response) const {
   return highest_of((controller_response.col(encoder) * response_.col(motor_torque) /
-                     inner_loops(controller_response))
+                     inner_return_difference(response_, controller_response))
                         .abs()
                         .log());
 }
@@ -255,6 +250,12 @@ SampledPeak SampledSetting::highest_of(const Eigen::ArrayXd& level) const {
     frequency = frequency_[k] * std::exp(place);
   }
   return {frequency, std::exp(highest)};
+}
+
+Eigen::ArrayXcd inner_return_difference(const Eigen::ArrayXXcd& plant,
+                                        const Eigen::ArrayXXcd& controller) {
+  return 1.0 - controller.col(tachometer) * plant.col(tachometer) -
+         controller.col(motor_torque) * plant.col(motor_torque);
 }
 
 }  // namespace boresight::design

@@ -88,8 +88,8 @@ class SampledSetting {
   /// The same of the position loop: cut at the encoder alone, with tachometer and torque fed back.
   SampledPeak highest_position_peak(const Eigen::ArrayXXcd& controller_response) const;
   /// The same of the gain from the encoder's reading to the motor torque, N m/rad, with tachometer
-  /// and torque fed back: what the drive does to a motor that friction holds.
-  SampledPeak highest_held_gain(const Eigen::ArrayXXcd& controller_response) const;
+  /// and torque fed back. Of a plant whose motor friction locks, so that it does not move.
+  SampledPeak highest_locked_motor_gain(const Eigen::ArrayXXcd& controller_response) const;
 
  private:
   struct ClosedLoop;
@@ -99,7 +99,6 @@ class SampledSetting {
   double boresight_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
                             double direct_variance) const;
   SampledPeak highest_of(const Eigen::ArrayXd& level) const;
-  Eigen::ArrayXcd inner_loops(const Eigen::ArrayXXcd& controller_response) const;
 
   std::string name_;
   plant::AntennaPlant plant_;
@@ -108,5 +107,10 @@ class SampledSetting {
   Eigen::ArrayXd frequency_;
   Eigen::ArrayXXcd response_;  // of the sampled plant, one column per measured signal
 };
+
+/// 1 + L of the loops of tachometer and motor torque, without the encoder's. Responses of the plant
+/// to the command and of the controller to the sensors, frequencies x sensors.
+Eigen::ArrayXcd inner_return_difference(const Eigen::ArrayXXcd& plant,
+                                        const Eigen::ArrayXXcd& controller);
 
 }  // namespace boresight::design

@@ -89,12 +89,6 @@ SmoothPeak smooth_peak(const ArrayXcd& values) {
   return {top + std::log(sum) / sharpness, 0.5 / sum * powers};
 }
 
-// 1 + L of the feedback of tachometer and torque, without the encoder's.
-ArrayXcd inner_loops(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  return 1.0 - controller.col(tachometer) * spectrum.response.col(tachometer) -
-         controller.col(motor_torque) * spectrum.response.col(motor_torque);
-}
-
 }  // namespace
 
 SampledSpectrum sampled_spectrum(const SampledSetting& setting, const Eigen::ArrayXd& frequency) {
@@ -156,7 +150,7 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
   const SmoothPeak peak = smooth_peak(sensitivity);
   result.sensitivity_peak = {peak.logarithm,
                              spectrum.response.colwise() * (sensitivity * peak.fractions)};
-  const ArrayXcd inner = inner_loops(spectrum, controller);
+  const ArrayXcd inner = inner_return_difference(spectrum.response, controller);
   const SmoothPeak of_position = smooth_peak(sensitivity * inner);
   result.position_peak = {of_position.logarithm,
                           spectrum.response.colwise() * (sensitivity * of_position.fractions)};
@@ -185,8 +179,8 @@ LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& contr
   return result;
 }
 
-LoopFigure held_gain(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  const ArrayXcd inner = inner_loops(spectrum, controller);
+LoopFigure locked_motor_gain(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
+  const ArrayXcd inner = inner_return_difference(spectrum.response, controller);
   const SmoothPeak peak =
       smooth_peak(controller.col(encoder) * spectrum.response.col(motor_torque) / inner);
   LoopFigure result{peak.logarithm, ArrayXXcd(controller.rows(), sensors)};

@@ -52,8 +52,8 @@ struct LoopFigures {
 LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
 
 /// As sensitivity_peak, of the gain from encoder to motor torque in
-/// SampledSetting::highest_held_gain.
-LoopFigure held_gain(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
+/// SampledSetting::highest_locked_motor_gain.
+LoopFigure locked_motor_gain(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
 
 /// Gauss-Newton curvature of the boresight's mean square, a Hermitian matrix H per frequency, by
 /// rows: a small change dK of the controller's response (a column per frequency) adds dK^H H dK,

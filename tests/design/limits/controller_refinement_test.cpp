@@ -121,6 +121,7 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   const auto found = refine_controller(loops.start, constraints, {.steps = 30, .poles = poles});
   ASSERT_TRUE(found.feasible);
   ASSERT_GT(found.steps, 4);
+  EXPECT_FALSE(found.violations.has_value());
   EXPECT_LE(constraints.excess(found.controller), 0.0);
   EXPECT_LT(found.boresight_rms, loops.rms(loops.start));
   EXPECT_GT(bounds_of(found.controller).slowest, 0.99 * poles.slowest);
@@ -154,7 +155,9 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   for (const double rms : evaluated) EXPECT_TRUE(rms < bound || rms >= earlier.boresight_rms);
   EXPECT_EQ(with([](double) { return 0; }).controller.b, found.controller.b);
   EXPECT_EQ(evaluated.size(), 1U);
-  EXPECT_EQ(with([](double) { return 3; }).controller.b, found.controller.b);
+  const auto violated = with([](double) { return 3; });
+  EXPECT_EQ(violated.controller.b, found.controller.b);
+  EXPECT_EQ(violated.violations, 3);
   EXPECT_GT(evaluated.size(), 1U);
   // As many as the best step has need not be counted further.
   EXPECT_GT(limits.front(), 1000);
@@ -162,6 +165,7 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   // Only the last step has some: the one before it is found between, by halving.
   const auto before_last = with([&](double rms) { return rms <= found.boresight_rms ? 3 : 0; });
   EXPECT_EQ(before_last.steps, found.steps - 1);
+  EXPECT_EQ(before_last.violations, 0);
   EXPECT_EQ(evaluated.size(), 3U);
   // None is without: the one with the fewest, though it is not the last.
   EXPECT_GE(with([&](double rms) { return rms < bound ? 3 : 1; }).boresight_rms, bound);

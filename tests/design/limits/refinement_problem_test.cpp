@@ -160,19 +160,19 @@ TEST(RefinementProblem, CornersLimitThePeakAlone) {
 }
 
 // As an active constraint: the step ends at the limit, and predicts it.
-TEST(RefinementProblem, LimitsTheGainOnAHeldMotor) {
+TEST(RefinementProblem, LimitsTheGainOnALockedMotor) {
   const Refined refined;
-  const std::vector<SampledSetting> motor_held{refined.with_friction(1e7)};
+  const std::vector<SampledSetting> motor_locked{refined.with_friction(1e7)};
   const auto gain = [&](const plant::StateSpace& controller) {
-    return motor_held.front()
-        .highest_held_gain(
-            SampledSetting::controller_response(controller, motor_held.front().frequency()))
+    return motor_locked.front()
+        .highest_locked_motor_gain(
+            SampledSetting::controller_response(controller, motor_locked.front().frequency()))
         .magnitude;
   };
   const auto step_within = [&](const SampledLoopGoals& goals) {
     const RobustConstraints constraints(
-        {.plants = refined.plants, .at_standstill = refined.held, .motor_held = motor_held}, goals,
-        1);
+        {.plants = refined.plants, .at_standstill = refined.held, .motor_locked = motor_locked},
+        goals, 1);
     auto step = RefinementProblem(refined.start, constraints, {}).step(0.1);
     const Eigen::VectorXd exact = constraints.peaks(step.controller);
     EXPECT_EQ(step.peaks.size(), exact.size());
@@ -184,13 +184,13 @@ TEST(RefinementProblem, LimitsTheGainOnAHeldMotor) {
   SampledLoopGoals goals = refined.goals;
   const auto unlimited = step_within(goals);
   ASSERT_GT(gain(unlimited.controller), 1.02 * gain(refined.start));
-  goals.held_gain = std::sqrt(gain(unlimited.controller) * gain(refined.start));
+  goals.locked_motor_gain = std::sqrt(gain(unlimited.controller) * gain(refined.start));
   const auto limited = step_within(goals);
   EXPECT_EQ(limited.peaks.size(), unlimited.peaks.size() + 1);
   EXPECT_LT(limited.violation, 2e-3);
   EXPECT_GT(limited.gain, 0.2 * unlimited.gain);
-  EXPECT_LT(gain(limited.controller), 1.002 * *goals.held_gain);
-  EXPECT_GT(gain(limited.controller), 0.98 * *goals.held_gain);
+  EXPECT_LT(gain(limited.controller), 1.002 * *goals.locked_motor_gain);
+  EXPECT_GT(gain(limited.controller), 0.98 * *goals.locked_motor_gain);
 }
 
 }  // namespace

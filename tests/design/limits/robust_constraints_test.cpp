@@ -156,14 +156,14 @@ TEST(RobustConstraints, ThePositionLoopIsCutAtTheEncoderAlone) {
 }
 
 // The gain is that of the loop without its encoder, from the encoder's input of the controller.
-TEST(RobustConstraints, LimitTheGainFromEncoderToTorqueOfAHeldMotor) {
+TEST(RobustConstraints, LimitTheGainFromEncoderToTorqueOfALockedMotor) {
   const Plants plants;
   const auto [moving, held, none, controller, response] = loops_on(plants);
-  const std::vector<SampledSetting> motor_held{plants.with_friction(1e7)};
-  const plant::StateSpace& plant = motor_held.front().sampled().plant;
+  const std::vector<SampledSetting> motor_locked{plants.with_friction(1e7)};
+  const plant::StateSpace& plant = motor_locked.front().sampled().plant;
   const plant::StateSpace all = from_sensors(controller);
   const Eigen::Index n = plant.a.rows(), m = all.a.rows();
-  const SampledPeak peak = motor_held.front().highest_held_gain(response);
+  const SampledPeak peak = motor_locked.front().highest_locked_motor_gain(response);
   const auto z = std::polar(1.0, peak.frequency * 0.02);
   Eigen::MatrixXd a(n + m, n + m), feedback = all.d, into = all.b;
   feedback.col(1).setZero();
@@ -178,13 +178,13 @@ TEST(RobustConstraints, LimitTheGainFromEncoderToTorqueOfAHeldMotor) {
               1e-3 * peak.magnitude);
 
   SampledLoopGoals goals{1e3, 1e3, 1e3, 1e3};
-  goals.held_gain = peak.magnitude / 1.2;
-  const RobustConstraints limited({.plants = moving, .motor_held = motor_held}, goals, 1);
+  goals.locked_motor_gain = peak.magnitude / 1.2;
+  const RobustConstraints limited({.plants = moving, .motor_locked = motor_locked}, goals, 1);
   EXPECT_NEAR(limited.excess(controller), std::log(1.2), 2e-3);
   ASSERT_EQ(limited.peaks(controller).size(), 2);
   EXPECT_NEAR(limited.peaks(controller)[1], std::log(1.2), 1e-12);
-  goals.held_gain.reset();
-  EXPECT_EQ(RobustConstraints({.plants = moving, .motor_held = motor_held}, goals, 1)
+  goals.locked_motor_gain.reset();
+  EXPECT_EQ(RobustConstraints({.plants = moving, .motor_locked = motor_locked}, goals, 1)
                 .peaks(controller)
                 .size(),
             1);

@@ -61,7 +61,7 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
   const LoopFigures above = loop_figures(loop.spectrum, loop.response + step * change);
   const LoopFigures below = loop_figures(loop.spectrum, loop.response - step * change);
   const auto held = [&](double by) {
-    return held_gain(loop.spectrum, loop.response + by * change);
+    return locked_motor_gain(loop.spectrum, loop.response + by * change);
   };
   const auto expect_slope = [&](const LoopFigure& at, const LoopFigure& up,
                                 const LoopFigure& down) {
@@ -79,21 +79,22 @@ TEST(SampledSpectrum, GradientsAreThoseOfTheFigures) {
   EXPECT_NEAR(found.position_peak.logarithm, exact(position), 0.01);
   EXPECT_NEAR(found.sensitivity_peak.logarithm, exact(loop.setting.highest_peak(loop.response)),
               0.01);
-  EXPECT_NEAR(held(0.0).logarithm, exact(loop.setting.highest_held_gain(loop.response)), 0.01);
+  EXPECT_NEAR(held(0.0).logarithm, exact(loop.setting.highest_locked_motor_gain(loop.response)),
+              0.01);
 }
 
 // A controller that does not use the encoder above some frequency has a finite gradient there.
-TEST(SampledSpectrum, HeldGainIsOfTheEncoderAlone) {
+TEST(SampledSpectrum, LockedMotorGainIsOfTheEncoderAlone) {
   Loop loop;
   const Eigen::Index unused = loop.response.rows() / 2;
   loop.response.col(1).tail(unused).setZero();
-  const LoopFigure found = held_gain(loop.spectrum, loop.response);
+  const LoopFigure found = locked_motor_gain(loop.spectrum, loop.response);
   EXPECT_TRUE(found.gradient.isFinite().all());
   // It is proportional to the encoder's response.
   EXPECT_NEAR(2.0 * (found.gradient.col(1) * loop.response.col(1)).sum().real(), 1.0, 1e-9);
   loop.response.col(1) *= 3.0;
-  EXPECT_NEAR(held_gain(loop.spectrum, loop.response).logarithm, found.logarithm + std::log(3.0),
-              1e-12);
+  EXPECT_NEAR(locked_motor_gain(loop.spectrum, loop.response).logarithm,
+              found.logarithm + std::log(3.0), 1e-12);
 }
 
 // Without a response of the plant the effort is a square of the controller: gradient and curvature

@@ -21,8 +21,7 @@ void print_controllers(const io::Case& stated, const design::ControllerStudy& st
               << (row.constraints_met ? "met" : "missed");
     if (row.in_time) {
       std::cout << ", " << row.in_time->rms() / millidegree << " simulated, limit cycle "
-                << row.in_time->limit_cycles / millidegree
-                << (row.left_out() ? ", beyond the budget" : "");
+                << row.in_time->limit_cycles / millidegree << (row.left_out() ? ", excluded" : "");
     }
     std::cout << '\n';
   }

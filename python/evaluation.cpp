@@ -80,7 +80,7 @@ void add_candidate(py::module_& module) {
       .def_readonly("motor_to_load_ratio", &Candidate::motor_to_load_ratio)
       .def_property_readonly("fit", &Candidate::feasible,
                              "Its controller meets every constraint, passed its verification and "
-                             "has no limit cycle beyond the tightest budget")
+                             "has no limit cycle beyond the allowed amplitude")
       .def_property_readonly("structure", of_controller<std::string>([](const auto& controller) {
                                return controller.structure;
                              }),

@@ -135,7 +135,7 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
         "before setting these gains, or plan for another controller.",
         report.structure,
         std::isfinite(*report.limit_cycle)
-            ? fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the tightest budget",
+            ? fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the allowed amplitude",
                           *report.limit_cycle / millidegree)
             : std::string("does not complete a run in still air")));
   }

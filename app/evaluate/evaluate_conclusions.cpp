@@ -65,7 +65,7 @@ std::string against_as_it_is(const EvaluateSection& section) {
   }
   if (!worse.empty()) text += fmt::format("; raised {}", fmt::join(worse, ", "));
   if (!limit_cycles.empty()) {
-    text += fmt::format(". Excluded, limit cycle beyond the tightest budget: {}",
+    text += fmt::format(". Excluded, limit cycle beyond the allowed amplitude: {}",
                         fmt::join(limit_cycles, ", "));
   }
   return text + ".";
@@ -213,7 +213,7 @@ std::string out_of_reach(const EvaluateSection& section) {
                                  fmt::join(infeasible, ", ")));
   }
   if (!limit_cycles.empty()) {
-    sentences.push_back(fmt::format("Excluded, limit cycle beyond the tightest budget: {}.",
+    sentences.push_back(fmt::format("Excluded, limit cycle beyond the allowed amplitude: {}.",
                                     fmt::join(limit_cycles, ", ")));
   }
   return fmt::format("{}", fmt::join(sentences, " "));

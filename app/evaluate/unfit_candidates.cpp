@@ -28,7 +28,7 @@ std::string_view why_not(const Candidate& candidate) {
   const CandidateController* controller = candidate.chosen_controller();
   if (controller == nullptr) return "has no stable controller";
   if (!controller->constraints_met) return "violates a constraint on some plant";
-  return candidate.has_limit_cycle() ? "has a limit cycle beyond the tightest budget"
+  return candidate.has_limit_cycle() ? "has a limit cycle beyond the allowed amplitude"
                                      : "fails its verification";
 }
 
@@ -66,7 +66,7 @@ std::string none_chosen(const EvaluateSection& section) {
   if (proposals.empty() || std::ranges::any_of(proposals, feasible)) return "";
   const bool stays = base != nullptr && base->feasible();
   if (std::ranges::all_of(proposals, [](const Candidate* one) { return one->has_limit_cycle(); })) {
-    return fmt::format("{} a limit cycle beyond the tightest budget{}: none is chosen.",
+    return fmt::format("{} a limit cycle beyond the allowed amplitude{}: none is chosen.",
                        proposals.size() == 1 ? "The proposal has" : "All proposals have",
                        base != nullptr && base->has_limit_cycle() ? ", as does the antenna as it is"
                        : stays                                    ? ", unlike the antenna as it is"

@@ -104,9 +104,9 @@ void conclude_limit_cycles(const MatchSection& section, std::vector<std::string>
   std::vector<std::string> reasons;
   if (!places.empty()) {
     reasons.push_back(
-        fmt::format("On the nonlinear antenna these limit-cycle beyond the tightest budget of "
-                    "{:.3f} mdeg rms (boresight amplitude): {}.",
-                    section.tightest_budget / millidegree, fmt::join(places, "; ")));
+        fmt::format("On the nonlinear antenna these limit-cycle beyond the allowed "
+                    "boresight amplitude of +-{:.3f} mdeg: {}.",
+                    section.allowed_limit_cycle / millidegree, fmt::join(places, "; ")));
   }
   if (!unseen.empty()) {
     reasons.push_back(
@@ -128,7 +128,7 @@ void conclude_weight(const MatchSection& section, std::vector<std::string>& sent
                             [](const auto& series) { return series.best.has_value(); })) {
       sentences.emplace_back(
           "No structure that meets the constraints is shown free of limit cycles beyond the "
-          "tightest budget: examine friction before the motors.");
+          "allowed amplitude: examine friction before the motors.");
     }
     return;
   }

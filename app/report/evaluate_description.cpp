@@ -209,7 +209,7 @@ void describe_candidate(io::Visitor& v, const EvaluateSection& section,
   v.flag("feasible", candidate.feasible(),
          "The chosen controller meets every goal on every plant, passes its verification and, "
          "where the "
-         "case has a simulation, does not limit-cycle beyond the tightest budget.");
+         "case has a simulation, does not limit-cycle beyond the allowed amplitude.");
   v.text_or_null("chosen_structure", chosen != nullptr ? chosen->structure : "",
                  "Of the controller that stands for it; null without a stable one.");
   v.list("controllers", controllers, "One a structure, tuned robustly on the proposal's plants.",

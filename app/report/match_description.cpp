@@ -55,7 +55,7 @@ void describe_point(io::Visitor& v, const MatchPoint& point) {
 
 void describe_time(io::Visitor& v, const MatchTimeDomain& run) {
   v.object("expected_rms", run.expected,
-           "In wind; null of one not shown free of limit cycles beyond the tightest budget.");
+           "In wind; null of one not shown free of limit cycles beyond the allowed amplitude.");
   v.number("ensemble_rms", run.member_rms, unit::millidegree,
            "Root of the mean square over the ensemble with these motors, linear; null where "
            "expected_rms is.");

@@ -103,7 +103,7 @@ std::string_view reason(Doubt doubt) {
     case Doubt::not_simulated:
       return "not shown on the nonlinear antenna";
     case Doubt::limit_cycle:
-      return "limit cycle beyond the budget, or not shown";
+      return "limit cycle beyond the allowed amplitude, or not shown";
     case Doubt::inertias_disagree:
       return "inertia estimates contradict";
     case Doubt::resonance_disagrees:
@@ -130,7 +130,7 @@ std::string_view deficiency(design::Fitness fitness) {
     case design::Fitness::not_shown:
       return ", not shown to be free of limit cycles";
     case design::Fitness::limit_cycle:
-      return ", limit-cycles beyond the tightest budget";
+      return ", limit-cycles beyond the allowed amplitude";
     case design::Fitness::lost_in_wind:
       return ", lost in simulated wind";
     default:
@@ -323,7 +323,7 @@ CardLine limit_cycle_line(const TimeDomainSection& section) {
     }
   }
   std::string text = fmt::format("{}", fmt::join(parts, ", "));
-  if (!limit_cycle_remark(section).empty()) text += ": BEYOND the tightest budget";
+  if (!limit_cycle_remark(section).empty()) text += ": BEYOND the allowed amplitude";
   if (const auto& reversal = section.result.reversal;
       reversal && reversal->status == design::RunStatus::complete) {
     text += fmt::format("; reversal peak {:.1f} mdeg", reversal->boresight_error / millidegree);

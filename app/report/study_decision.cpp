@@ -35,7 +35,7 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
   const auto& run = best.values[built].time_domain;
   if (run && has_limit_cycle_at(section, best, built)) {
     const bool seen = limit_cycle_beyond(section, run->limit_cycles);
-    return seen ? "As built, these loops limit-cycle beyond the tightest budget on the nonlinear "
+    return seen ? "As built, these loops limit-cycle beyond the allowed amplitude on the nonlinear "
                   "antenna."
                 : "As built, these loops are not shown free of limit cycles on the nonlinear "
                   "antenna: a run did not complete.";
@@ -48,7 +48,7 @@ std::string first_change(const MatchSection& section, const MatchSeries& best, b
   if (structures.count < 2) {
     return text + (by_disks < negligible_change ? ": leave them."
                    : others ? "; no other loops studied meet the constraints and are shown free of "
-                              "limit cycles beyond the tightest budget."
+                              "limit cycles beyond the allowed amplitude."
                             : "; other loops were not studied.");
   }
   const double by_loops = structures.change;
@@ -132,7 +132,7 @@ Sentences decide_inertia(const MatchSection& section, bool others_limit_cycle, b
   if (best == nullptr) {
     return {others_limit_cycle
                 ? "No structure that meets the constraints is shown free of limit cycles "
-                  "beyond the tightest budget: examine friction before the motors."
+                  "beyond the allowed amplitude: examine friction before the motors."
                 : "No structure meets the constraints at any motor inertia."};
   }
   const std::size_t built = as_built(section), best_point = best->best.value_or(built);
@@ -219,8 +219,9 @@ std::vector<std::string> decision(const MatchSection& section) {
         "Not {}, {:.3f} mdeg on the linear plant: on the nonlinear antenna it {}.", series.name,
         mdeg(series.values[*series.best].boresight_rms),
         limit_cycle_beyond(section, runs)
-            ? fmt::format("limit-cycles by +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
-                          mdeg(design::limit_cycle_amplitude(runs)), mdeg(section.tightest_budget))
+            ? fmt::format("limit-cycles by +-{:.2f} mdeg, beyond the allowed +-{:.3f} mdeg",
+                          mdeg(design::limit_cycle_amplitude(runs)),
+                          mdeg(section.allowed_limit_cycle))
             : std::string("is not shown free of limit cycles, as a run did not complete")));
   }
   return sentences;
@@ -293,7 +294,7 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     const auto limit_cycles = limit_cycle_candidates(section);
     if (none.empty() && !limit_cycles.empty()) {
       sentences.push_back(
-          fmt::format("Excluded, as they limit-cycle beyond the tightest budget: {}.",
+          fmt::format("Excluded, as they limit-cycle beyond the allowed amplitude: {}.",
                       fmt::join(limit_cycles, ", ")));
     }
     const std::string name = chosen.path.empty() ? "The antenna as it is" : chosen.name;

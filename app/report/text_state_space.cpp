@@ -33,7 +33,7 @@ std::string_view lead_of(design::StateSpaceVerdict verdict) {
     case design::StateSpaceVerdict::incomplete:
       return "No verdict: a run did not complete.";
     case design::StateSpaceVerdict::limit_cycle:
-      return "Not usable, as it limit-cycles beyond the tightest budget: ";
+      return "Not usable, as it limit-cycles beyond the allowed amplitude: ";
     case design::StateSpaceVerdict::unsettled:
       return "Not usable, as it does not settle within the tightest budget after a slew: ";
     case design::StateSpaceVerdict::better:

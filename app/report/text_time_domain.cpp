@@ -254,18 +254,18 @@ Document slew_part(const TimeDomainSection& section) {
 // The rule by which the controller above was chosen (design::recommend).
 std::string choice_text(const TimeDomainSection& section) {
   using Candidate = TimeDomainSection::Candidate;
-  const double error = section.options.tightest_budget;
-  const double amplitude = design::allowed_limit_cycle(error);
+  const double amplitude = section.options.allowed_limit_cycle;
   const auto simulated = [](const Candidate& one) {
     return std::isfinite(one.result.wind.boresight_rms);
   };
   const auto fit = [&](const Candidate& one) {
-    return simulated(one) && design::is_limit_cycle_free(one.result.limit_cycles, error);
+    return simulated(one) && design::is_limit_cycle_free(one.result.limit_cycles, amplitude);
   };
   const auto has_limit_cycle = [&](const Candidate& one) {
     return design::limit_cycle_amplitude(one.result.limit_cycles) > amplitude;
   };
-  const std::string beyond = fmt::format("beyond the tightest budget (+-{} mdeg)", mdeg(amplitude));
+  const std::string beyond =
+      fmt::format("beyond the allowed amplitude (+-{} mdeg)", mdeg(amplitude));
   const std::string minimum = fmt::format(
       "the one above meets most budgets and then has the least simulated rms, limit cycle added in "
       "quadrature, or fewer gains in a tie with it ({:.0f} %, or the 95 % interval of the "

@@ -26,7 +26,7 @@ std::string slew_not_achievable(const TimeDomainSection& section);
 /// antenna: the rms in wind, or the slew rate. Empty if the stroke is stated or decides neither.
 std::string assumed_stroke(const TimeDomainSection& section);
 
-/// A sentence if freedom from limit cycles within the tightest budget is not shown
+/// A sentence if freedom from limit cycles beyond the allowed amplitude is not shown
 /// (design::is_limit_cycle_free); else empty.
 std::string limit_cycle_remark(const TimeDomainSection& section);
 

@@ -76,41 +76,41 @@ std::string conclude_wind(const TimeDomainSection& section) {
 
 // Whether by that it is left out of a choice; a controller may also be because a run did not end.
 bool has_limit_cycle_beyond(const std::vector<design::LimitCycleResult>& limit_cycles,
-                            double error) {
-  return design::limit_cycle_amplitude(limit_cycles) > design::allowed_limit_cycle(error);
+                            double allowed) {
+  return design::limit_cycle_amplitude(limit_cycles) > allowed;
 }
 
-// What a controller with a limit cycle beyond an rms error does.
+// What a controller with a limit cycle beyond the allowed amplitude does.
 std::string limit_cycle_text(const std::vector<design::LimitCycleResult>& limit_cycles,
-                             double error) {
-  if (!has_limit_cycle_beyond(limit_cycles, error)) {
+                             double allowed) {
+  if (!has_limit_cycle_beyond(limit_cycles, allowed)) {
     return "was not shown free of limit cycles (a run at rest or at the tracking rate did not "
            "complete)";
   }
-  return fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the tightest budget of {:.3f}",
+  return fmt::format("has a limit cycle of +-{:.2f} mdeg, beyond the allowed +-{:.3f} mdeg",
                      design::limit_cycle_amplitude(limit_cycles) / millidegree,
-                     error / millidegree);
+                     allowed / millidegree);
 }
 
 // The same of another such controller.
 std::string other_limit_cycle_text(const std::vector<design::LimitCycleResult>& limit_cycles,
-                                   double error) {
-  if (!has_limit_cycle_beyond(limit_cycles, error))
+                                   double allowed) {
+  if (!has_limit_cycle_beyond(limit_cycles, allowed))
     return "was not shown free of limit cycles either";
-  return fmt::format("also has one beyond the budget, +-{:.2f} mdeg",
+  return fmt::format("also has one beyond that, +-{:.2f} mdeg",
                      design::limit_cycle_amplitude(limit_cycles) / millidegree);
 }
 
 // What a controller that the linear plant prefers does on the nonlinear antenna.
-std::string first_text(const design::SimulatedCandidate& candidate, double error) {
+std::string first_text(const design::SimulatedCandidate& candidate, double allowed) {
   const design::NonlinearVerification& first = candidate.result;
   const RunStatus status = candidate.rms ? candidate.rms->status : first.wind.status;
   std::string text = status == RunStatus::complete
                          ? fmt::format("it has {:.3f}", candidate.simulated_rms() / millidegree)
                          : fmt::format("its run did not complete ({})", design::to_string(status));
   const double limit_cycles = design::limit_cycle_amplitude(first.limit_cycles);
-  if (!design::is_limit_cycle_free(first.limit_cycles, error)) {
-    text += " and " + limit_cycle_text(first.limit_cycles, error);
+  if (!design::is_limit_cycle_free(first.limit_cycles, allowed)) {
+    text += " and " + limit_cycle_text(first.limit_cycles, allowed);
   } else if (limit_cycles > 0.0) {
     text += fmt::format(" with a limit cycle of +-{:.2f}", limit_cycles / millidegree);
   }
@@ -152,21 +152,21 @@ std::string conclude_choice(const TimeDomainSection& section) {
   };
   const auto first = std::ranges::min_element(section.candidates, {}, linear);
   if (first == section.candidates.end() || first->controller == section.controller) return "";
-  const double error = section.options.tightest_budget;
+  const double allowed = section.options.allowed_limit_cycle;
   const design::WindResult& wind = first->result.wind;
   const auto& limit_cycles = section.result.limit_cycles;
   std::string text =
       fmt::format("{} has the lowest linear rms ({:.3f} mdeg); on the nonlinear antenna {}: ",
-                  first->controller, wind.predicted_rms / millidegree, first_text(*first, error));
-  const bool first_still = design::is_limit_cycle_free(first->result.limit_cycles, error);
+                  first->controller, wind.predicted_rms / millidegree, first_text(*first, allowed));
+  const bool first_still = design::is_limit_cycle_free(first->result.limit_cycles, allowed);
   if (!std::isfinite(section.own().simulated_rms())) {
     text += fmt::format("the run of {} did not complete either", section.controller);
-  } else if (!design::is_limit_cycle_free(limit_cycles, error)) {
+  } else if (!design::is_limit_cycle_free(limit_cycles, allowed)) {
     text += fmt::format("{}, but {}", merit(section, *first),
-                        first_still ? limit_cycle_text(limit_cycles, error)
-                                    : other_limit_cycle_text(limit_cycles, error));
+                        first_still ? limit_cycle_text(limit_cycles, allowed)
+                                    : other_limit_cycle_text(limit_cycles, allowed));
   } else if (!first_still) {
-    text += fmt::format("{} has no limit cycle beyond the budget", section.controller);
+    text += fmt::format("{} has no limit cycle beyond the allowed amplitude", section.controller);
   } else if (is_better(section, *first)) {
     text += fmt::format("{} is better", section.controller);
   } else {
@@ -189,23 +189,22 @@ std::string integration_text(const TimeDomainSection& section) {
 }
 
 // What it does by itself at a steady rate; empty where it is free of limit cycles.
-std::string limit_cycle_text(const design::LimitCycleResult& limit_cycles, double error) {
+std::string limit_cycle_text(const design::LimitCycleResult& limit_cycles, double allowed) {
   const char* where = limit_cycles.rate == 0.0 ? "At rest" : "At the tracking rate";
   if (limit_cycles.status != RunStatus::complete) {
     return fmt::format(" {} freedom from limit cycles was not shown ({}).", where,
                        design::to_string(limit_cycles.status));
   }
   if (!limit_cycles.limit_cycle) return "";
-  return fmt::format(
-      " {} it has a limit cycle of +-{:.2f} mdeg{}{}.", where,
-      limit_cycles.boresight_amplitude / millidegree,
-      limit_cycles.some_only()
-          ? fmt::format(" in {} of {} runs", limit_cycles.starts_with_limit_cycle,
-                        limit_cycles.starts)
-          : "",
-      has_limit_cycle_beyond({limit_cycles}, error)
-          ? fmt::format(", beyond the tightest budget of {:.3f}", error / millidegree)
-          : "");
+  return fmt::format(" {} it has a limit cycle of +-{:.2f} mdeg{}{}.", where,
+                     limit_cycles.boresight_amplitude / millidegree,
+                     limit_cycles.some_only()
+                         ? fmt::format(" in {} of {} runs", limit_cycles.starts_with_limit_cycle,
+                                       limit_cycles.starts)
+                         : "",
+                     has_limit_cycle_beyond({limit_cycles}, allowed)
+                         ? fmt::format(", beyond the allowed +-{:.3f} mdeg", allowed / millidegree)
+                         : "");
 }
 
 }  // namespace
@@ -245,17 +244,17 @@ std::optional<TimeDomainSection> section_of(const io::Case& antenna,
 }
 
 std::string limit_cycle_remark(const TimeDomainSection& section) {
-  const double error = section.options.tightest_budget;
+  const double allowed = section.options.allowed_limit_cycle;
   const auto& limit_cycles = section.result.limit_cycles;
-  if (design::is_limit_cycle_free(limit_cycles, error)) return "";
+  if (design::is_limit_cycle_free(limit_cycles, allowed)) return "";
   return fmt::format(
       "On the nonlinear antenna it {}: `boresight tune` searches for a controller free of limit "
       "cycles.",
-      limit_cycle_text(limit_cycles, error));
+      limit_cycle_text(limit_cycles, allowed));
 }
 
 std::string decide(const TimeDomainSection& section) {
-  const double error = section.options.tightest_budget;
+  const double allowed = section.options.allowed_limit_cycle;
   const double rms = section.own().simulated_rms() / millidegree;
   // No other did either: such a controller is never put before one that did.
   if (!std::isfinite(rms)) {
@@ -264,8 +263,8 @@ std::string decide(const TimeDomainSection& section) {
         "commission none before the cause is known.",
         section.wind_speed);
   }
-  if (!design::is_limit_cycle_free(section.result.limit_cycles, error)) {
-    const std::string evaluated_against = limit_cycle_text(section.result.limit_cycles, error);
+  if (!design::is_limit_cycle_free(section.result.limit_cycles, allowed)) {
+    const std::string evaluated_against = limit_cycle_text(section.result.limit_cycles, allowed);
     if (section.candidates.empty()) {
       return fmt::format(
           "On the nonlinear antenna {} has {:.3f} mdeg in wind, but {}. Measure the friction "
@@ -284,13 +283,13 @@ std::string decide(const TimeDomainSection& section) {
     const design::WindResult &wind = candidate.result.wind, &chosen = section.result.wind;
     const double simulated = candidate.simulated_rms();
     const bool fit = std::isfinite(simulated) &&
-                     design::is_limit_cycle_free(candidate.result.limit_cycles, error);
+                     design::is_limit_cycle_free(candidate.result.limit_cycles, allowed);
     const bool lower =
         simulated < section.own().simulated_rms() || wind.predicted_rms < chosen.predicted_rms;
     if (fit || !lower) continue;
     sentences.push_back(fmt::format(
         "Not {}, with {:.3f} mdeg on the linear plant: on the nonlinear antenna {}.",
-        candidate.controller, wind.predicted_rms / millidegree, first_text(candidate, error)));
+        candidate.controller, wind.predicted_rms / millidegree, first_text(candidate, allowed)));
   }
   if (std::string stroke = assumed_stroke(section); !stroke.empty()) {
     sentences.push_back(std::move(stroke));
@@ -301,7 +300,7 @@ std::string decide(const TimeDomainSection& section) {
 std::string conclude(const TimeDomainSection& section) {
   std::string text = conclude_choice(section) + conclude_wind(section) + integration_text(section);
   for (const auto& limit_cycles : section.result.limit_cycles) {
-    text += limit_cycle_text(limit_cycles, section.options.tightest_budget);
+    text += limit_cycle_text(limit_cycles, section.options.allowed_limit_cycle);
   }
   const auto& reversal = section.result.reversal;
   if (reversal && reversal->status == RunStatus::complete) {

@@ -11,7 +11,7 @@ Fitness fitness(const Assessment& assessment) {
   if (!assessment.nominal_constraints_met) return Fitness::misses_nominal;
   const auto& rms = assessment.simulated_rms;
   if (rms && !std::isfinite(*rms)) return Fitness::lost_in_wind;
-  if (assessment.limit_cycles == LimitCycleVerdict::beyond_budget) return Fitness::limit_cycle;
+  if (assessment.limit_cycles == LimitCycleVerdict::not_allowed) return Fitness::limit_cycle;
   if (assessment.limit_cycles == LimitCycleVerdict::not_shown) return Fitness::not_shown;
   if (!assessment.member_constraints_met) return Fitness::misses_member;
   if (assessment.budgets_met < assessment.budgets_required) return Fitness::misses_budget;

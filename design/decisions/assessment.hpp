@@ -16,9 +16,9 @@ enum class DesignPurpose { nominal, robust };
 /// Result of a nonlinear simulation at steady rates without wind, for limit cycles.
 enum class LimitCycleVerdict {
   not_simulated,
-  within_budget,  // none, or none that exceeds the tightest pointing budget
-  not_shown,      // a nonlinear run in search of limit cycles did not complete
-  beyond_budget,
+  allowed,    // none, or none beyond the allowed_limit_cycle
+  not_shown,  // a nonlinear run in search of limit cycles did not complete
+  not_allowed,
 };
 
 /// One controller on one antenna in one wind. Angles at the sky, rad.
@@ -52,7 +52,7 @@ enum class Fitness {
   misses_budget,   // a required pointing budget
   misses_member,   // unstable or beyond a constraint on an ensemble member, or not evaluated there
   not_shown,       // a nonlinear run in search of limit cycles did not complete
-  limit_cycle,     // beyond the tightest pointing budget
+  limit_cycle,     // beyond the allowed_limit_cycle
   lost_in_wind,    // the nonlinear run in wind did not complete
   misses_nominal,  // a constraint on the nominal plant
   unverified,      // not confirmed by independent code

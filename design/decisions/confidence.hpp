@@ -37,7 +37,7 @@ enum class Doubt {
   not_verified,
   not_robust,
   not_simulated,
-  limit_cycle,  // beyond the tightest budget, or freedom from limit cycles not shown
+  limit_cycle,  // beyond the allowed amplitude, or freedom from limit cycles not shown
   inertias_disagree,
   resonance_disagrees,
   interpretation_decides,

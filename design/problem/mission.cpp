@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,18 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
 
 Constraints constraints(const Mission& mission) {
   Constraints goals = mission.stated_constraints;
+  const double half_step = 0.5 * encoder_step(mission.antenna);
+  // What the message allows is rounded, and must be accepted.
+  constexpr double rounding = 1e-3;
+  if (mission.limit_cycle_amplitude.value_or(half_step) < (1.0 - rounding) * half_step) {
+    throw InfeasibleRequirement(fmt::format(
+        "goals.limit_cycle_amplitude: expected at least {0:.4g} mdeg, half an encoder step, found "
+        "{1:.4g} mdeg: a loop does not sense smaller motion. Allow {0:.4g} mdeg, or take an "
+        "encoder "
+        "with steps of {2:.4g} mdeg instead of {3:.4g}",
+        half_step / millidegree, *mission.limit_cycle_amplitude / millidegree,
+        2.0 * *mission.limit_cycle_amplitude / millidegree, 2.0 * half_step / millidegree));
+  }
   if (goals.standstill) {
     goals.standstill->friction = standstill_friction(mission.antenna);
     goals.standstill->edges = encoder_edges(mission.antenna);
@@ -60,6 +73,10 @@ double torque_limited_wind_speed(const Mission& mission) {
 double tightest_budget(const Mission& mission) {
   const auto tightest = std::ranges::min_element(mission.budgets, {}, &PointingBudget::rms);
   return tightest != mission.budgets.end() ? tightest->rms : millidegree;
+}
+
+double allowed_limit_cycle(const Mission& mission) {
+  return mission.limit_cycle_amplitude.value_or(std::numbers::sqrt2 * tightest_budget(mission));
 }
 
 }  // namespace boresight::design

@@ -94,6 +94,9 @@ struct Mission {
   bool limits_gusts = false;
   Objective objective;
   std::optional<double> rms_goal;  // rad
+  /// rad, of the boresight: largest limit cycle of a controller to recommend. See
+  /// allowed_limit_cycle.
+  std::optional<double> limit_cycle_amplitude;
   bool minimises_climate = false;  // the climate's mean square instead of one speed's
 
   CandidateStructures structures;  // to be tuned unless others are requested
@@ -118,7 +121,8 @@ TrackingProblem tracking_problem(const Mission& mission, const plant::Antenna& a
 /// The constraints of a mission. Gusts, where limited, are limited to valve demands within the
 /// stroke (plant::largest_demand) and to torques within plant::available_wind_torque. Those at
 /// standstill, where given, have standstill_friction and encoder_edges.
-/// @throws InvalidInput where friction and offset leave no torque.
+/// @throws InvalidInput where friction and offset leave no torque; InfeasibleRequirement for a
+/// limit_cycle_amplitude of less than half an encoder step, within which no loop senses motion.
 Constraints constraints(const Mission& mission);
 
 /// Mean wind speed (m/s) at which the mean wind torque equals plant::available_wind_torque. 0 if
@@ -127,5 +131,9 @@ double torque_limited_wind_speed(const Mission& mission);
 
 /// Rms error per axis (rad) of the tightest pointing budget; 1 mdeg without a budget.
 double tightest_budget(const Mission& mission);
+
+/// Largest boresight amplitude (rad) of a limit cycle that does not exclude a controller: the
+/// mission's limit_cycle_amplitude, else that of a sinusoid with the rms of the tightest budget.
+double allowed_limit_cycle(const Mission& mission);
 
 }  // namespace boresight::design

@@ -11,9 +11,9 @@
 namespace boresight::design {
 namespace {
 
-// rad of motor: rounding to steps q errs by q/sqrt(12) rms.
-double encoder_step(const plant::Antenna& antenna) {
-  return std::sqrt(12.0) * sky_to_motor(antenna, antenna.sensors.encoder_noise);
+// rad
+double step_of_motor(const plant::Antenna& antenna) {
+  return sky_to_motor(antenna, encoder_step(antenna));
 }
 
 // Hz
@@ -27,8 +27,12 @@ constexpr std::array<double, 4> edge_frequencies{0.27, 0.45, 0.8, 1.35};
 
 }  // namespace
 
+double encoder_step(const plant::Antenna& antenna) {
+  return std::sqrt(12.0) * antenna.sensors.encoder_noise;
+}
+
 std::vector<double> standstill_friction(const plant::Antenna& antenna) {
-  const double step = encoder_step(antenna);
+  const double step = step_of_motor(antenna);
   if (!(step > 0.0)) return {};
   constexpr double sixth = 1.0 / 6.0;
   const double rate = 0.5 * step * sixth * two_pi * hydraulic_frequency(antenna);
@@ -42,7 +46,7 @@ std::vector<double> standstill_friction(const plant::Antenna& antenna) {
 
 std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna) {
   if (standstill_friction(antenna).empty()) return {};
-  const double amplitude = edge_amplitude * encoder_step(antenna);
+  const double amplitude = edge_amplitude * step_of_motor(antenna);
   const double frequency = two_pi * hydraulic_frequency(antenna);
   std::vector<Standstill::Edge> edges;
   for (const double part : edge_frequencies) {
@@ -56,7 +60,7 @@ std::vector<Standstill::Edge> encoder_edges(const plant::Antenna& antenna) {
 std::optional<double> breakaway_stiffness(const plant::Antenna& antenna) {
   if (standstill_friction(antenna).empty()) return std::nullopt;
   const plant::FrictionCurve& curve = antenna.friction_curve;
-  return std::max(curve.breakaway_torque, curve.coulomb_torque) / encoder_step(antenna);
+  return std::max(curve.breakaway_torque, curve.coulomb_torque) / step_of_motor(antenna);
 }
 
 }  // namespace boresight::design

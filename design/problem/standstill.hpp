@@ -8,6 +8,10 @@
 
 namespace boresight::design {
 
+/// Angle at the sky (rad) between two codes of the encoder: rounding to steps q errs by q/sqrt(12)
+/// rms, the encoder's noise. 0 without noise.
+double encoder_step(const plant::Antenna& antenna);
+
 /// Friction slopes (N m s/rad) for Standstill: what the friction curve amounts to
 /// (plant::equivalent_friction) in the smallest oscillation that matters, and a third and a sixth
 /// of it for larger ones. That oscillation has an amplitude of half an encoder step, below which

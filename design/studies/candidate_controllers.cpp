@@ -75,7 +75,7 @@ CandidateController candidate_controller(const Mission& mission, const Controlle
     }
     controller.limit_cycle_free =
         !controller.time_domain ||
-        is_limit_cycle_free(controller.time_domain->limit_cycles, how.tightest_budget);
+        is_limit_cycle_free(controller.time_domain->limit_cycles, how.allowed_limit_cycle);
   }
   controller.budgets_met =
       plants_within_budgets(problem, members, gains, study.tuned.goals, mission.budgets,

@@ -37,14 +37,14 @@ double step_of(const plant::Antenna& antenna, const CommissioningStage& stage) {
 }
 
 // The linear plant of the stages does not know friction. In still air: the wind is theirs.
-std::optional<double> limit_cycle_beyond_budget(const Mission& mission,
-                                                const TrackingProblem& problem,
-                                                const control::Controller& controller,
-                                                std::uint64_t seed) {
+std::optional<double> disallowed_limit_cycle(const Mission& mission, const TrackingProblem& problem,
+                                             const control::Controller& controller,
+                                             std::uint64_t seed) {
   auto options = comparison_options(mission, seed);
   options.wind_duration = 1.0;
   const auto run = run_in_time_domain(mission, problem, controller, options);
-  if (!run || is_limit_cycle_free(run->limit_cycles, options.tightest_budget)) return std::nullopt;
+  if (!run || is_limit_cycle_free(run->limit_cycles, options.allowed_limit_cycle))
+    return std::nullopt;
   return limit_cycle_runs_complete(run->limit_cycles) ? limit_cycle_amplitude(run->limit_cycles)
                                                       : std::numeric_limits<double>::infinity();
 }
@@ -108,7 +108,7 @@ CommissionStudy study_commission(const Mission& mission, const PlantEnsemble& en
   for (const auto& stage : study.plan.stages) {
     study.steps.push_back(step_of(mission.antenna, stage));
   }
-  study.limit_cycle = limit_cycle_beyond_budget(mission, study.problem, target, seed);
+  study.limit_cycle = disallowed_limit_cycle(mission, study.problem, target, seed);
   return study;
 }
 

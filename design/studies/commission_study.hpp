@@ -22,8 +22,8 @@ struct CommissionStudy {
   /// rate, or 100 mdeg. NaN where a plant is unstable.
   std::vector<double> steps;
   /// Boresight amplitude (rad) of the controller's limit cycle on the nonlinear antenna, if it
-  /// exceeds the tightest budget. Infinite if a run without wind did not complete. None if it is
-  /// within the budget, and without Antenna::nonlinear.
+  /// exceeds the allowed one. Infinite if a run without wind did not complete. None if it does not
+  /// exceed it, and without Antenna::nonlinear.
   std::optional<double> limit_cycle;
 };
 

@@ -25,9 +25,9 @@ std::vector<NamedController> alternatives(const TuningStudy& section, const Tune
   return controllers;
 }
 
-ControllerInTime evaluated(const TimeDomainStudy::Candidate& run, double error) {
+ControllerInTime evaluated(const TimeDomainStudy::Candidate& run, double limit_cycle) {
   const auto& [controller, result, rms] = run;
-  return {.limit_cycle_free = is_limit_cycle_free(result.limit_cycles, error),
+  return {.limit_cycle_free = is_limit_cycle_free(result.limit_cycles, limit_cycle),
           .limit_cycles = limit_cycle_amplitude(result.limit_cycles),
           .boresight_rms = result.wind.boresight_rms,
           .limit_cycle_runs_complete = limit_cycle_runs_complete(result.limit_cycles),
@@ -41,11 +41,11 @@ void limit_speeds(const Mission& mission, TunedController& row) {
 
 // Sets the nonlinear results of the controllers that were compared.
 void take_runs(const Mission& mission, const TimeDomainStudy& compared, TuningStudy& section) {
-  const double error = tightest_budget(mission);
+  const double limit_cycle = allowed_limit_cycle(mission);
   for (auto& row : section.controllers) {
     if (!row.usable()) continue;
     if (const auto run = run_of(compared, row)) {
-      row.in_time = evaluated(*run, error);
+      row.in_time = evaluated(*run, limit_cycle);
       limit_speeds(mission, row);
     }
   }
@@ -86,7 +86,7 @@ void evaluate_in_time(const Mission& mission, const TimeDomainStudy* compared, T
                       const std::function<bool()>& interrupted, TuningStudy& section) {
   if (compared == nullptr) return;
   take_runs(mission, *compared, section);
-  const double error = tightest_budget(mission);
+  const double limit_cycle = allowed_limit_cycle(mission);
   std::vector<TunedController*> to_run;
   for (auto& row : section.controllers) {
     if (row.tuned_for != purpose || !row.usable() || row.in_time) continue;
@@ -101,7 +101,7 @@ void evaluate_in_time(const Mission& mission, const TimeDomainStudy* compared, T
     const auto run = compare_in_time_domain(
         mission, problem, {description_of(row), row.design.tuning.controller}, options);
     if (!run) return;
-    row.in_time = evaluated(*run, error);
+    row.in_time = evaluated(*run, limit_cycle);
     limit_speeds(mission, row);
   });
 }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <boresight/design/problem/drive_capability.hpp>
+#include <boresight/design/problem/standstill.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 #include <boresight/design/studies/matching_rules.hpp>
 #include <boresight/design/studies/matching_study.hpp>
@@ -203,7 +204,7 @@ MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensembl
       plant::with_parameter(nonlinear_antenna(antenna), plant::AntennaParameter::motor_inertia,
                             problem.plant.drive.motor_inertia);
   auto loop = make_simulated_loop(problem, nonlinear, controller);
-  loop.encoder_resolution = std::sqrt(12.0) * antenna.sensors.encoder_noise * problem.gear_ratio;
+  loop.encoder_resolution = encoder_step(antenna) * problem.gear_ratio;
   NonlinearVerificationOptions options;
   options.wind_duration = 1.0;
   options.explain = false;
@@ -213,7 +214,7 @@ MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensembl
   options.winds = winds;
   auto result = verify_in_time(problem, loop, options);
   MatchTimeDomain run{std::move(result.limit_cycles), std::move(result.reversal)};
-  if (!value.found || !is_limit_cycle_free(run.limit_cycles, study.tightest_budget)) return run;
+  if (!value.found || !is_limit_cycle_free(run.limit_cycles, study.allowed_limit_cycle)) return run;
   // The records of wind of verify_in_time_domain.
   const NonlinearVerificationOptions records;
   run.expected = simulated_rms(problem, loop,
@@ -321,7 +322,7 @@ MatchingStudy study_matching(const Mission& mission, const PlantEnsemble& ensemb
   study.tracking_rate = antenna.drive.tracking_rate;
   study.tracking_friction = plant::tracking_friction(antenna);
   study.friction = antenna.drive.viscous_friction;
-  study.tightest_budget = tightest_budget(mission);
+  study.allowed_limit_cycle = allowed_limit_cycle(mission);
   study.points = points_of(mission, options);
   for (auto& point : study.points) describe(mission, study, point);
   study.goals = constraints(mission);

@@ -50,8 +50,8 @@ struct MatchPoint {
 struct MatchTimeDomain {
   std::vector<LimitCycleResult> limit_cycles;
   std::optional<ReversalResult> reversal;
-  /// Over several records of wind. None for a controller with a limit cycle beyond the tightest
-  /// budget.
+  /// Over several records of wind. None for a controller with a limit cycle beyond the allowed
+  /// amplitude.
   std::optional<SimulatedRms> expected = std::nullopt;
   /// Linear, root mean square over the ensemble with these motors (rms_over_members), in rad at the
   /// sky. Without an ensemble: that of the mission's plant. NaN where `expected` is none.
@@ -159,11 +159,11 @@ struct MatchingStudy {
   /// rad/s at the sky: the mission's, or four fifths of the rate that the supply sustains against
   /// friction.
   double slew_rate = 0.0;
-  bool slew_by_simulation = false;  // rate and acceleration by design::achievable_limits
-  double tracking_rate = 0.0;       // rad/s at the sky
-  double tracking_friction = 0.0;   // N m s/rad
-  double friction = 0.0;            // N m s/rad, of the linear plant
-  double tightest_budget = 0.0;     // rad rms at the sky; 1 mdeg where the mission has none
+  bool slew_by_simulation = false;   // rate and acceleration by design::achievable_limits
+  double tracking_rate = 0.0;        // rad/s at the sky
+  double tracking_friction = 0.0;    // N m s/rad
+  double friction = 0.0;             // N m s/rad, of the linear plant
+  double allowed_limit_cycle = 0.0;  // rad at the sky, amplitude of the boresight
 };
 
 /// Numbers of disks at which controllers run on the nonlinear antenna: all; few (0 disks, ratio 1

@@ -60,12 +60,12 @@ std::vector<LimitCycleResult> limit_cycle_of(const MatchingStudy& study,
 
 bool limit_cycle_beyond(const MatchingStudy& study,
                         const std::vector<LimitCycleResult>& limit_cycles) {
-  return limit_cycle_amplitude(limit_cycles) > allowed_limit_cycle(study.tightest_budget);
+  return limit_cycle_amplitude(limit_cycles) > study.allowed_limit_cycle;
 }
 
 bool has_limit_cycle_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point) {
   const auto& run = series.values[point].time_domain;
-  return run && !is_limit_cycle_free(run->limit_cycles, study.tightest_budget);
+  return run && !is_limit_cycle_free(run->limit_cycles, study.allowed_limit_cycle);
 }
 
 bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series) {
@@ -89,7 +89,7 @@ namespace {
 
 // A structure's controller at a point that meets every constraint, as recommend() compares it, with
 // the limit cycles of a point where it ran.
-Assessment assessment_of(const MatchSeries& series, std::size_t point, double budget,
+Assessment assessment_of(const MatchSeries& series, std::size_t point, double limit_cycle,
                          const std::vector<LimitCycleResult>& limit_cycles) {
   Assessment candidate;
   candidate.structure = series.name;
@@ -100,7 +100,7 @@ Assessment assessment_of(const MatchSeries& series, std::size_t point, double bu
   candidate.linear_rms = series.values[point].boresight_rms;
   if (!limit_cycles.empty()) {
     candidate.limit_cycle_amplitude = limit_cycle_amplitude(limit_cycles);
-    candidate.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(limit_cycles, budget),
+    candidate.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(limit_cycles, limit_cycle),
                                                  limit_cycle_runs_complete(limit_cycles));
   }
   return candidate;
@@ -116,7 +116,7 @@ std::optional<RankedMotors> motors_at(const MatchingStudy& study, std::size_t po
     const MatchTimeDomain& run = *value.time_domain;
     places.push_back(s);
     candidates.push_back(
-        assessment_of(study.series[s], point, study.tightest_budget, run.limit_cycles));
+        assessment_of(study.series[s], point, study.allowed_limit_cycle, run.limit_cycles));
     candidates.back().expected = run.expected;
     candidates.back().simulated_rms = run.expected->rms.value;
   }
@@ -155,8 +155,8 @@ const MatchSeries* recommended_structure(const MatchingStudy& study,
   for (const auto& series : study.series) {
     if (!series.best || !counts(series)) continue;
     structures.push_back(&series);
-    candidates.push_back(
-        assessment_of(series, *series.best, study.tightest_budget, limit_cycle_of(study, series)));
+    candidates.push_back(assessment_of(series, *series.best, study.allowed_limit_cycle,
+                                       limit_cycle_of(study, series)));
   }
   const auto winner = recommend(candidates, {.accepted = Fitness::limit_cycle}).winner;
   return winner ? structures[*winner] : nullptr;

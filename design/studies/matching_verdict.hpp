@@ -21,20 +21,20 @@ std::size_t limit_cycle_point(const MatchingStudy& study, const MatchSeries& ser
 /// Limit-cycle runs of a structure at that point; empty without a run.
 std::vector<LimitCycleResult> limit_cycle_of(const MatchingStudy& study, const MatchSeries& series);
 
-/// True if such runs show a limit cycle beyond the tightest budget. False where only an incomplete
-/// run leaves the question open.
+/// True if such runs show a limit cycle beyond the allowed amplitude. False where only an
+/// incomplete run leaves the question open.
 bool limit_cycle_beyond(const MatchingStudy& study,
                         const std::vector<LimitCycleResult>& limit_cycles);
 
-/// True if a structure was run at a point and not shown free of limit cycles within the tightest
-/// budget (is_limit_cycle_free): by limit_cycle_beyond, or because a run did not complete.
+/// True if a structure was run at a point and not shown free of limit cycles beyond the allowed
+/// amplitude (is_limit_cycle_free): by limit_cycle_beyond, or because a run did not complete.
 bool has_limit_cycle_at(const MatchingStudy& study, const MatchSeries& series, std::size_t point);
 
 /// has_limit_cycle_at its limit_cycle_point: such a structure is excluded whatever its rms in wind.
 bool has_limit_cycle(const MatchingStudy& study, const MatchSeries& series);
 
 /// True if a structure is eligible when inertias, structures and rules are compared. It has a
-/// controller that meets its constraints, with no limit cycle beyond the tightest budget at its
+/// controller that meets its constraints, with no limit cycle beyond the allowed amplitude at its
 /// limit_cycle_point or as built.
 bool is_eligible(const MatchingStudy& study, const MatchSeries& series);
 

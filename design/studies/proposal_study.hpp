@@ -54,7 +54,7 @@ struct CandidateController {
   /// by linear loops with the nonlinear effect. None for a budget without such a wind. Empty
   /// without a stable controller.
   std::vector<std::optional<int>> budgets_met;
-  /// Free of limit cycles beyond the tightest budget (is_limit_cycle_free); true without a
+  /// Free of limit cycles beyond the allowed amplitude (is_limit_cycle_free); true without a
   /// simulation.
   bool limit_cycle_free = true;
 

@@ -83,7 +83,7 @@ std::optional<StateSpaceStudy> study_state_space(const Mission& mission,
   if (!simulated) return std::nullopt;
   study.simulated = std::move(*simulated);
   study.limit_cycle_free =
-      is_limit_cycle_free(study.simulated.result.limit_cycles, tightest_budget(mission));
+      is_limit_cycle_free(study.simulated.result.limit_cycles, allowed_limit_cycle(mission));
   study.change = figure_change(loops.own(), study.simulated);
   return study;
 }

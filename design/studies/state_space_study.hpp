@@ -20,7 +20,7 @@ struct StateSpaceStudy {
   double wind_speed = 0.0;  // m/s, mean
   /// Of the name "state space, order N".
   SimulatedCandidate simulated;
-  /// is_limit_cycle_free within the tightest budget.
+  /// is_limit_cycle_free up to the allowed_limit_cycle.
   bool limit_cycle_free = false;
   /// figure_change from the loops to this controller.
   std::optional<numerics::Interval> change;
@@ -41,7 +41,7 @@ std::optional<TunedController> state_space_candidate(const Mission& mission,
 /// The decision between the loops and a state-space controller; the first of these that applies.
 enum class StateSpaceVerdict {
   incomplete,    // a run did not complete
-  limit_cycle,   // beyond the tightest budget
+  limit_cycle,   // beyond the allowed amplitude
   unsettled,     // after a slew, within the tightest budget
   better,        // by more than negligible_change and by the whole 95 % interval
   no_advantage,  // none of these

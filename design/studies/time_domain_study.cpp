@@ -6,6 +6,7 @@
 
 #include <boresight/control/loops/state_space_controller.hpp>
 #include <boresight/design/problem/drive_capability.hpp>
+#include <boresight/design/problem/standstill.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
@@ -20,15 +21,14 @@ TimeDomainStudy plan(const Mission& mission, const TrackingProblem& problem,
   TimeDomainStudy section;
   section.controller = description;
   section.wind_speed = problem.wind.mean_speed;
-  // Rounding to steps q errs by q/sqrt(12) rms.
-  section.encoder_resolution = std::sqrt(12.0) * mission.antenna.sensors.encoder_noise;
+  section.encoder_resolution = encoder_step(mission.antenna);
   auto& options = section.options;
   options.seeds = {seed};
   options.tracking_rate = mission.antenna.drive.tracking_rate;
   options.slew_distance = 1.0 * degree;
   options.limits = {mission.antenna.drive.slew_rate, 0.2 * degree};
-  options.tightest_budget = tightest_budget(mission);
-  options.settled_error = options.tightest_budget;
+  options.allowed_limit_cycle = allowed_limit_cycle(mission);
+  options.settled_error = tightest_budget(mission);
   options.threads = threads;
   options.winds = std::make_shared<SharedWinds>();
   return section;
@@ -155,13 +155,13 @@ std::optional<numerics::Interval> figure_change(const SimulatedCandidate& from,
                          {*to.rms, limit_cycle_amplitude(to.result.limit_cycles)});
 }
 
-LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown) {
-  if (within_budget) return LimitCycleVerdict::within_budget;
-  return shown ? LimitCycleVerdict::beyond_budget : LimitCycleVerdict::not_shown;
+LimitCycleVerdict limit_cycle_verdict(bool allowed, bool shown) {
+  if (allowed) return LimitCycleVerdict::allowed;
+  return shown ? LimitCycleVerdict::not_allowed : LimitCycleVerdict::not_shown;
 }
 
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
-                         const std::optional<SimulatedRms>& expected, double budget) {
+                         const std::optional<SimulatedRms>& expected, double limit_cycle) {
   Assessment assessment;
   assessment.structure = controller.name;
   assessment.parts = controller.controller.structure.parts();
@@ -171,8 +171,9 @@ Assessment assessment_of(const NamedController& controller, const NonlinearVerif
   assessment.simulated_rms = expected ? expected->rms.value : result.wind.boresight_rms;
   assessment.expected = expected;
   assessment.limit_cycle_amplitude = limit_cycle_amplitude(result.limit_cycles);
-  assessment.limit_cycles = limit_cycle_verdict(is_limit_cycle_free(result.limit_cycles, budget),
-                                                limit_cycle_runs_complete(result.limit_cycles));
+  assessment.limit_cycles =
+      limit_cycle_verdict(is_limit_cycle_free(result.limit_cycles, limit_cycle),
+                          limit_cycle_runs_complete(result.limit_cycles));
   return assessment;
 }
 
@@ -214,7 +215,7 @@ std::size_t TimeDomainChoice::settle() {
   const auto assess_again = [&](std::size_t i) {
     const TimeDomainStudy& seen = sections_[i];
     assessments[i] =
-        assessment_of(controllers_[i], seen.result, seen.rms, tightest_budget(mission_));
+        assessment_of(controllers_[i], seen.result, seen.rms, allowed_limit_cycle(mission_));
     count_budgets(mission_, problem_.wind.mean_speed, assessments[i]);
   };
   for (std::size_t i = 0; i < controllers_.size(); ++i) assess_again(i);

@@ -100,15 +100,15 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
 void add_present(const Mission& mission, const TrackingProblem& problem,
                  const NamedController& controller, bool retuned, TimeDomainStudy& study);
 
-/// `within_budget`: is_limit_cycle_free within the tightest budget; `shown`:
+/// `allowed`: is_limit_cycle_free up to the allowed_limit_cycle; `shown`:
 /// limit_cycle_runs_complete.
-LimitCycleVerdict limit_cycle_verdict(bool within_budget, bool shown);
+LimitCycleVerdict limit_cycle_verdict(bool allowed, bool shown);
 
 /// The assessment that recommend() compares, of a controller that meets every constraint, from its
-/// simulation. It uses the expected rms where there is one. `budget`: the tightest (rad rms). It
-/// counts no pointing budgets.
+/// simulation. It uses the expected rms where there is one. `limit_cycle`: the amplitude
+/// allowed (rad). It counts no pointing budgets.
 Assessment assessment_of(const NamedController& controller, const NonlinearVerification& result,
-                         const std::optional<SimulatedRms>& expected, double budget);
+                         const std::optional<SimulatedRms>& expected, double limit_cycle);
 
 /// The choice among controllers that meet every constraint, on the nonlinear antenna of a mission,
 /// which must outlive it.

@@ -28,7 +28,7 @@ std::string_view to_string(TunedFor purpose);
 
 /// Results of a controller on the nonlinear antenna. At the sky, rad.
 struct ControllerInTime {
-  bool limit_cycle_free = true;           // is_limit_cycle_free within the tightest budget
+  bool limit_cycle_free = true;           // is_limit_cycle_free up to the allowed amplitude
   double limit_cycles = 0.0;              // largest boresight amplitude of its limit cycles
   double boresight_rms = 0.0;             // in one record of wind; NaN if that run did not complete
   bool limit_cycle_runs_complete = true;  // limit_cycle_runs_complete
@@ -58,8 +58,8 @@ struct TunedController {
   /// Of a position gain at the upper bound of the search that can be halved or lowered further.
   std::optional<PositionGainTrade> trade;
 
-  /// True if the controller is excluded from every budget: it limit-cycles beyond the tightest
-  /// budget on the nonlinear antenna, or a run in wind did not complete.
+  /// True if the controller is excluded from every budget: it limit-cycles beyond the allowed
+  /// amplitude on the nonlinear antenna, or a run in wind did not complete.
   bool left_out() const {
     return in_time && (!in_time->limit_cycle_free || !std::isfinite(in_time->rms()));
   }

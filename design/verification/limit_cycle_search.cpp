@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include <boresight/design/verification/limit_cycle_search.hpp>
@@ -143,13 +142,9 @@ bool limit_cycle_runs_complete(const std::vector<LimitCycleResult>& limit_cycles
       limit_cycles, [](const LimitCycleResult& run) { return run.status == RunStatus::complete; });
 }
 
-double allowed_limit_cycle(double error) {
-  return std::numbers::sqrt2 * error;
-}
-
-bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double error) {
+bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double amplitude) {
   return limit_cycle_runs_complete(limit_cycles) &&
-         limit_cycle_amplitude(limit_cycles) <= allowed_limit_cycle(error);
+         limit_cycle_amplitude(limit_cycles) <= amplitude;
 }
 
 }  // namespace boresight::design

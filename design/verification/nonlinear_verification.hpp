@@ -36,9 +36,9 @@ struct NonlinearVerificationOptions {
   control::CommandLimits limits;
   /// Encoder error (rad) within which a slew counts as settled.
   double settled_error = 0.0;
-  /// Boresight rms (rad at the sky) of the tightest budget. It bounds limit cycles
-  /// (is_limit_cycle_free); no run depends on it.
-  double tightest_budget = 0.0;
+  /// Boresight amplitude (rad at the sky) of a limit cycle that is allowed (is_limit_cycle_free);
+  /// no run depends on it.
+  double allowed_limit_cycle = 0.0;
   double settling_watched = 40.0;  // s after the end of the command
   unsigned threads = 1;
   /// The records of wind, for several controllers in the same; prepared anew if null.
@@ -184,12 +184,9 @@ struct NonlinearVerification {
 double limit_cycle_amplitude(const std::vector<LimitCycleResult>& limit_cycles);
 /// True if every limit-cycle run completed.
 bool limit_cycle_runs_complete(const std::vector<LimitCycleResult>& limit_cycles);
-/// The amplitude (rad) of a sinusoid with rms `error` (rad): a limit cycle up to this amplitude
-/// stays within the error.
-double allowed_limit_cycle(double error);
-/// True if the loop is free of limit cycles beyond an rms `error` (rad) when only friction and its
-/// own torque act: limit_cycle_runs_complete, and no amplitude above the allowed_limit_cycle.
-bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double error);
+/// True if the loop is free of limit cycles beyond an amplitude (rad) when only friction and its
+/// own torque act: limit_cycle_runs_complete, and no larger limit_cycle_amplitude.
+bool is_limit_cycle_free(const std::vector<LimitCycleResult>& limit_cycles, double amplitude);
 
 /// Runs only the first of verify_in_time's runs in wind (WindResult::trace), to compare another
 /// controller with the verified one. @throws as verify_in_time.

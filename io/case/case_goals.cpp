@@ -32,6 +32,7 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
   take("bandwidth", Kind::bandwidth_frequency, Range::positive(1e4), goals.bandwidth);
   take("sensitivity_peak_standstill", Kind::number, Range::between(1.01, 100.0),
        goals.standstill_peak);
+  take("limit_cycle_amplitude", Kind::angle, Range::positive(0.01), goals.limit_cycle_amplitude);
   take("crest_factor", Kind::number, Range::between(1.0, 10.0), goals.crest_factor);
   take("beam_rms", Kind::angle, Range::positive(1.0), goals.boresight_rms);
   if (table.has("soft_goal") || table.optional_text("soft_goal")) {

@@ -25,8 +25,9 @@ struct GoalsEntry {
   std::optional<Quantity> phase_margin;  // rad, at every break
   std::optional<Quantity> bandwidth;     // rad/s, of the position loop
   std::optional<Quantity> standstill_peak;
-  std::optional<Quantity> crest_factor;   // of the torque in gusts, against the supply's
-  std::optional<Quantity> boresight_rms;  // rad
+  std::optional<Quantity> limit_cycle_amplitude;  // rad
+  std::optional<Quantity> crest_factor;           // of the torque in gusts, against the supply's
+  std::optional<Quantity> boresight_rms;          // rad
   ObjectiveKind objective = ObjectiveKind::nominal;
   double quantile = 0.95;
   /// True if the minimised rms is the one over the site's wind climate instead of that at the

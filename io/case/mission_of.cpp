@@ -138,6 +138,9 @@ design::Mission asked_of(const Case& stated) {
   mission.rms_band = {stated.goals->lowest_frequency.value, stated.goals->highest_frequency.value};
   mission.stated_constraints = stated_constraints_of(*stated.goals);
   mission.limits_gusts = stated.goals->crest_factor.has_value();
+  if (const auto& amplitude = stated.goals->limit_cycle_amplitude) {
+    mission.limit_cycle_amplitude = amplitude->value;
+  }
   return mission;
 }
 

@@ -36,7 +36,7 @@ double torque_limited_wind_speed(const Case& antenna, const design::TrackingProb
 /// Constraints against saturation: valve demand within the valve's stroke (largest_demand), and
 /// torque within the available wind torque, the supply's less friction and offset
 /// (available_wind_torque).
-/// @throws InvalidInput for a crest_factor if no torque is available.
+/// @throws as design::constraints.
 design::Constraints make_goals(const Case& antenna);
 design::Objective make_objective(const Case& antenna);
 

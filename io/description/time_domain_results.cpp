@@ -214,6 +214,9 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
   v.number("sample_time", study.sample_time, unit::second, "Of the controller.", known);
   v.number("encoder_resolution", study.encoder_resolution, unit::millidegree,
            "Steps of the encoder: those whose rounding error is its noise.", known);
+  v.number("allowed_limit_cycle", study.options.allowed_limit_cycle, unit::millidegree,
+           "Boresight amplitude of the largest limit cycle that does not exclude a controller.",
+           known);
   v.group("feedforward",
           "From the commanded motion to the controller's commands, at the motor shaft.",
           [&] { describe_feedforward(v, study.feedforward, study.friction_feedforward); });

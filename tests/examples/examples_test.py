@@ -119,7 +119,7 @@ class Examples(unittest.TestCase):
         proposal = SOURCE / "cases/dss14-70m/proposals/half-flywheels.toml"
         text = run("recommend_controller", small_case(), proposal)
         rows = re.findall(r"^(recommended )?(\S+), robust: .* constraints met, ([-e\d.]+) simulated, "
-                          r"limit cycle ([-e\d.]+)(, beyond the budget)?$", text, re.M)
+                          r"limit cycle ([-e\d.]+)(, excluded)?$", text, re.M)
         self.assertEqual({row[1] for row in rows}, {"PI", "DPF"}, text)
         # The limit cycle counts by its rms; within 2 % the controller of fewer gains is taken.
         figures = {bool(row[0]): [] for row in rows}

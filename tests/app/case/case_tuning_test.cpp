@@ -286,6 +286,7 @@ TEST(CaseGoals, ReadsGoalsAtEachBreakAndOfTheEnsemble) {
                                   "sensitivity_peak_valve = \"1.8\"\ngain_margin = \"6 dB\"\n"
                                   "phase_margin = \"30 deg\"\nbandwidth = \"0.05 Hz\"\n"
                                   "crest_factor = \"3\"\nbeam_rms = \"2 mdeg\"\n"
+                                  "limit_cycle_amplitude = \"0.3 mdeg\"\n"
                                   "soft_goal = \"quantile\"\nquantile = \"90 %\"\n")
           .text(),
       "case.toml");
@@ -298,6 +299,9 @@ TEST(CaseGoals, ReadsGoalsAtEachBreakAndOfTheEnsemble) {
   EXPECT_DOUBLE_EQ(goals.bandwidth->value, 0.05 * hertz);
   EXPECT_EQ(goals.objective, io::ObjectiveKind::quantile);
   EXPECT_DOUBLE_EQ(goals.quantile, 0.9);
+  const double amplitude = mission_of(antenna).limit_cycle_amplitude.value_or(0.0);
+  EXPECT_NEAR(amplitude, 0.3e-3 * std::numbers::pi / 180.0, 1e-18);
+  EXPECT_EQ(allowed_limit_cycle(mission_of(antenna)), amplitude);
 }
 
 TEST(CaseGoals, RefusesAQuantileOfNothing) {

@@ -248,7 +248,7 @@ TEST(EvaluateConclusions, HoldNoChoiceAgainstWhatIsLeftOut) {
               AllOf(HasSubstr("among eligible proposals: proposal 1, 1.0200 mdeg on average. It is "
                               "better than as it is with probability"),
                     HasSubstr("proposal 2 has the lowest rms of all, 0.7700 mdeg on average, but "
-                              "has a limit cycle beyond the tightest budget and is excluded. The "
+                              "has a limit cycle beyond the allowed amplitude and is excluded. The "
                               "probabilities to be best and the regrets above include it."),
                     Not(HasSubstr("Expected regret")), Not(HasSubstr("the best of all"))));
   EXPECT_THAT(told(drawn({{1.03, 0.0, true}, {0.7, 0.8, true}, {0.77, 0.2, false}}, 1, 0)),

@@ -218,7 +218,7 @@ TEST(TuningVerdict, SaysOnWhatAVerdictOnABudgetRests) {
   EXPECT_THAT(unmet_needs(*report.tuning, std::nullopt),
               ElementsAre(HasSubstr("it is met up to 11.5 m/s, by the linear plant.")));
   TimeDomainSection& section = report.time_domain.emplace();
-  section.options.settled_error = section.options.tightest_budget = 0.5 * millidegree;
+  section.options.allowed_limit_cycle = 0.705 * millidegree;
   section.wind_speed = 12.0;
   section.result.wind.predicted_rms = 0.49 * millidegree;
   section.result.wind.boresight_rms = 0.51 * millidegree;
@@ -254,17 +254,16 @@ TEST(TuningVerdict, RunsNoDriveThatLimitCycles) {
   Report report = tuned_report();
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
   TimeDomainSection& section = report.time_domain.emplace();
-  section.options.settled_error = section.options.tightest_budget = 0.5 * millidegree;
+  section.options.allowed_limit_cycle = 0.705 * millidegree;
   design::LimitCycleResult rest;
   rest.limit_cycle = true;
   rest.boresight_amplitude = 0.7 * millidegree;
   section.result.limit_cycles = {rest};
   EXPECT_THAT(decision(report).front(), HasSubstr("Run the drive"));
   section.result.limit_cycles[0].boresight_amplitude = 0.8 * millidegree;
-  EXPECT_THAT(
-      reservations(report),
-      Contains(HasSubstr("it has a limit cycle of +-0.80 mdeg, beyond the tightest budget of "
-                         "0.500")));
+  EXPECT_THAT(reservations(report),
+              Contains(HasSubstr("it has a limit cycle of +-0.80 mdeg, beyond the allowed "
+                                 "+-0.705 mdeg")));
   EXPECT_THAT(decision(report), Each(Not(HasSubstr("Run the drive"))));
   section.result.limit_cycles[0] = {};
   section.result.limit_cycles[0].status = design::RunStatus::lost;

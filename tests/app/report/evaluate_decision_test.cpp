@@ -154,29 +154,30 @@ TEST(EvaluateDecision, ChoosesNothingThatLimitCycles) {
   EXPECT_THAT(decision(section).front(),
               AllOf(HasSubstr("Choose proposal 1"), Not(HasSubstr("proposal 2"))));
   EXPECT_THAT(decision(section),
-              Contains("Excluded, as they limit-cycle beyond the tightest budget: proposal 2."));
+              Contains("Excluded, as they limit-cycle beyond the allowed amplitude: proposal 2."));
   EXPECT_THAT(conclude(section),
               Contains(HasSubstr("lowered 21.9 % by proposal 1. Excluded, limit cycle beyond the "
-                                 "tightest budget: proposal 2.")));
+                                 "allowed amplitude: proposal 2.")));
   EXPECT_THAT(
       conclude(section),
       Contains(HasSubstr(
-          "Excluded, limit cycle beyond the tightest budget: proposal 2 with  (+-3.03 mdeg)")));
+          "Excluded, limit cycle beyond the allowed amplitude: proposal 2 with  (+-3.03 mdeg)")));
   make_limit_cycle(1);
   rank(section);
   EXPECT_THAT(
       decision(section).front(),
-      HasSubstr("All proposals have a limit cycle beyond the tightest budget, unlike the antenna "
+      HasSubstr("All proposals have a limit cycle beyond the allowed amplitude, unlike the antenna "
                 "as it is: none is chosen. The antenna as it is has 0.640 mdeg rms"));
   make_limit_cycle(0);
   rank(section);
   const std::string none =
-      "All proposals have a limit cycle beyond the tightest budget, as does the antenna as it is: "
+      "All proposals have a limit cycle beyond the allowed amplitude, as does the antenna as it "
+      "is: "
       "none is chosen.";
   const auto decided = decision(section);
   EXPECT_THAT(decided.front(),
               AllOf(StartsWith(none + " proposal 2 comes nearest"),
-                    HasSubstr("but has a limit cycle beyond the tightest budget")));
+                    HasSubstr("but has a limit cycle beyond the allowed amplitude")));
   EXPECT_THAT(decided, Each(Not(HasSubstr("probability"))));
   const auto sentences = conclude(section);
   EXPECT_EQ(sentences.front(), none);

@@ -45,7 +45,7 @@ Report report_of_test() {
   auto& run = report.time_domain.emplace();
   run.wind_speed = 10.0;
   run.result.wind.boresight_rms = 0.52 * millidegree;
-  run.options.settled_error = run.options.tightest_budget = millidegree;
+  run.options.settled_error = run.options.allowed_limit_cycle = millidegree;
   return report;
 }
 
@@ -87,7 +87,7 @@ TEST(RedesignCard, DoesNotLoadWhatIsUnfit) {
            {Fitness::misses_budget, "misses a required budget"},
            {Fitness::misses_member, "violates constraints on some models"},
            {Fitness::not_shown, "not shown to be free of limit cycles"},
-           {Fitness::limit_cycle, "limit-cycles beyond the tightest budget"},
+           {Fitness::limit_cycle, "limit-cycles beyond the allowed amplitude"},
            {Fitness::lost_in_wind, "lost in simulated wind"}}) {
     report.tuning->fitness = fitness;
     EXPECT_THAT(line_of(report, "Do not load"), StartsWith("PI-0 (robust, " + why + "): kr = "));

@@ -73,7 +73,8 @@ TEST(TextStateSpace, LeadsWithItsVerdict) {
                 "0.204 mdeg rms"));
   auto cycling = study();
   cycling.limit_cycle_free = false;
-  EXPECT_THAT(verdict(cycling), HasSubstr("Not usable, as it limit-cycles beyond the tightest"));
+  EXPECT_THAT(verdict(cycling),
+              HasSubstr("Not usable, as it limit-cycles beyond the allowed amplitude"));
   EXPECT_EQ(state_space_advantage(cycling, loops()), "");
   auto unsettled = study();
   unsettled.simulated.result.slew.emplace();

@@ -47,7 +47,8 @@ TimeDomainSection section() {
   section.friction_feedforward = 0.8;
   section.options.tracking_rate = 4.17 * mdeg;
   section.options.limits = {0.25 * degree, 0.2 * degree};
-  section.options.settled_error = section.options.tightest_budget = 0.527 * mdeg;
+  section.options.settled_error = 0.527 * mdeg;
+  section.options.allowed_limit_cycle = 0.7453 * mdeg;
   auto& wind = section.result.wind;
   wind.predicted_rms = 0.5 * mdeg;
   wind.realisation_error = -0.01 * mdeg;
@@ -133,7 +134,7 @@ TEST(TimeDomain, SaysInWordsThatASlewArrivesWithinItsBound) {
 TEST(TimeDomain, DecidesForAControllerFreeOfLimitCycles) {
   auto chosen = section();
   EXPECT_EQ(decide(chosen), "");
-  // One of less rms in wind that limit-cycles beyond the budget of 0.527 mdeg, which is why it was
+  // One of less rms in wind that limit-cycles beyond the allowed 0.7453 mdeg, which is why it was
   // passed over.
   auto limit_cycles = chosen.result;
   limit_cycles.wind.boresight_rms = 0.1 * mdeg;
@@ -184,7 +185,7 @@ TEST(TimeDomain, RecommendsByRmsAndLimitCycleTogether) {
   EXPECT_EQ(winner({candidate(0.95, 0.542), candidate(1.075, 0.17)}), 0U);
   EXPECT_EQ(winner({candidate(1.0, 0.2), candidate(1.0, 0.2)}), 0U);
   EXPECT_EQ(winner({candidate(0.3, 5.0), candidate(1.0, 0.2)}), 1U);
-  // Beyond the budget the limit cycle counts in the rms too.
+  // Beyond the allowed amplitude the limit cycle counts in the rms too.
   EXPECT_EQ(winner({candidate(0.3, 5.0), candidate(1.0, 4.0)}), 1U);
   EXPECT_EQ(winner({candidate(nan, 0.1), candidate(1.0, 0.2)}), 1U);
   EXPECT_EQ(winner({candidate(nan, 0.1), candidate(1.0, 4.0)}), 1U);
@@ -349,7 +350,7 @@ TEST(TimeDomain, SaysByWhatRuleAControllerWasChosen) {
       "quadrature, or fewer gains in a tie with it (2 %, or the 95 % interval of the difference "
       "over "
       "the same winds).";
-  const std::string limit = "beyond the tightest budget (+-0.7453 mdeg)";
+  const std::string limit = "beyond the allowed amplitude (+-0.7453 mdeg)";
   const std::string some = "Of the controllers free of limit cycles " + limit + ", " + minimum;
   for (const double limit_cycles : {0.0, 0.3, 5.0}) {
     EXPECT_THAT(told({{0.3, 0.4, limit_cycles}, {0.5, 0.6, 0.3}}), HasSubstr(some));
@@ -373,19 +374,19 @@ TEST(TimeDomain, CallsNoControllerBetterThatLimitCyclesToo) {
       all,
       HasSubstr(
           "controller 1 has the lowest linear rms (0.300 mdeg); on the nonlinear antenna it has "
-          "2.170 and has a limit cycle of +-4.80 mdeg, beyond the tightest budget of 0.527: "
-          "controller 2 has 1.780, but also has one beyond the budget, +-5.80 mdeg. "));
+          "2.170 and has a limit cycle of +-4.80 mdeg, beyond the allowed +-0.745 mdeg: "
+          "controller 2 has 1.780, but also has one beyond that, +-5.80 mdeg. "));
   EXPECT_THAT(all, HasSubstr("At rest it has a limit cycle of +-5.80 mdeg in 2 of 3 runs, beyond "
-                             "the tightest budget of 0.527."));
+                             "the allowed +-0.745 mdeg."));
   EXPECT_THAT(all, Not(HasSubstr("is better")));
   EXPECT_THAT(
       told({{0.3, 1.78, 5.8}, {0.5, 1.79, 4.8}}),
       HasSubstr(": controller 2 has the same rms within 2 % and a smaller limit cycle, but also "
-                "has one beyond the budget, +-4.80 mdeg. "));
+                "has one beyond that, +-4.80 mdeg. "));
   // One that does not is chosen whatever its rms.
   const auto some = told({{0.3, 0.4, 4.8}, {0.5, 0.6, 0.7}});
-  EXPECT_THAT(some, HasSubstr("a limit cycle of +-4.80 mdeg, beyond the tightest budget of 0.527: "
-                              "controller 2 has no limit cycle beyond the budget. "));
+  EXPECT_THAT(some, HasSubstr("a limit cycle of +-4.80 mdeg, beyond the allowed +-0.745 mdeg: "
+                              "controller 2 has no limit cycle beyond the allowed amplitude. "));
   EXPECT_THAT(some, HasSubstr("At rest it has a limit cycle of +-0.70 mdeg in 2 of 3 runs. "));
   // Where none does, rms and limit cycle decide together.
   EXPECT_THAT(told({{0.3, 0.7, 0.0}, {0.5, 0.6, 0.3}}),
@@ -397,7 +398,7 @@ TEST(TimeDomain, CallsNoControllerBetterThatLimitCyclesToo) {
   EXPECT_THAT(
       told({{0.3, nan, 0.0}, {0.5, 1.8, 5.8}}),
       HasSubstr("its run did not complete (lost): controller 2 has 1.800, but has a limit cycle "
-                "of +-5.80 mdeg, beyond the tightest budget"));
+                "of +-5.80 mdeg, beyond the allowed"));
   EXPECT_THAT(told({{0.3, nan, 4.0}, {0.5, nan, 0.1}}),
               HasSubstr(": the run of controller 2 did not complete either. "));
 }

@@ -31,7 +31,7 @@ Assessment fit_controller(std::string name, double rms, std::size_t parts) {
 Assessment simulated(Assessment one, double rms, double amplitude) {
   one.simulated_rms = rms;
   one.limit_cycle_amplitude = amplitude;
-  one.limit_cycles = LimitCycleVerdict::within_budget;
+  one.limit_cycles = LimitCycleVerdict::allowed;
   return one;
 }
 
@@ -41,7 +41,7 @@ std::vector<Assessment> one_of_each_fitness() {
   all[1].budgets_required = 1;
   all[2].member_constraints_met = false;
   all[3].limit_cycles = LimitCycleVerdict::not_shown;
-  all[4].limit_cycles = LimitCycleVerdict::beyond_budget;
+  all[4].limit_cycles = LimitCycleVerdict::not_allowed;
   all[5].simulated_rms = std::numeric_limits<double>::quiet_NaN();
   all[6].nominal_constraints_met = false;
   all[7].verified = false;
@@ -59,7 +59,7 @@ TEST(Fitness, IsDecidedByTheWorstDeficiency) {
   one.budgets_required = 1;
   one.member_constraints_met = false;
   EXPECT_EQ(fitness(one), Fitness::misses_member);
-  one.limit_cycles = LimitCycleVerdict::beyond_budget;
+  one.limit_cycles = LimitCycleVerdict::not_allowed;
   EXPECT_EQ(fitness(one), Fitness::limit_cycle);
   one.stable = false;
   EXPECT_EQ(fitness(one), Fitness::unstable);
@@ -225,7 +225,7 @@ TEST(Recommend, DoesNotTrustAnUnsimulatedControllerBesideSimulatedOnes) {
   const auto result = recommend(all);
   EXPECT_EQ(result.winner, 1U);
   EXPECT_EQ(result.rejected[0].fitness, Fitness::not_shown);
-  all[1].limit_cycles = LimitCycleVerdict::beyond_budget;
+  all[1].limit_cycles = LimitCycleVerdict::not_allowed;
   EXPECT_EQ(recommend(all).winner, std::nullopt);
 }
 

@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "design/studies/demo_mission.hpp"
@@ -12,6 +14,9 @@ namespace boresight::design {
 namespace {
 
 using reference::demo_mission;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 TEST(Mission, ProblemIsOfItsAntennaAndOfAnyOther) {
   const Mission mission = demo_mission();
@@ -46,6 +51,28 @@ TEST(Mission, GustsAreLimitedByWhatTheDriveHas) {
   EXPECT_EQ(constraints(mission).gust_demand, plant::largest_demand(mission.antenna));
   mission.antenna.drive.supply_pressure = 1e3;
   EXPECT_THROW(constraints(mission), InvalidInput);
+}
+
+// By default that of a sinusoid with the rms of the tightest budget.
+TEST(Mission, AllowsALimitCycleAsStatedOrWithinTheTightestBudget) {
+  Mission mission = demo_mission();
+  mission.budgets.resize(1);
+  mission.budgets[0].rms = 2e-5;
+  EXPECT_NEAR(allowed_limit_cycle(mission), 2e-5 * std::sqrt(2.0), 1e-20);
+  const double half_step = std::sqrt(3.0) * mission.antenna.sensors.encoder_noise;
+  mission.limit_cycle_amplitude = 1.01 * half_step;
+  EXPECT_EQ(allowed_limit_cycle(mission), 1.01 * half_step);
+  EXPECT_NO_THROW(constraints(mission));
+  // No loop senses less than half a step; which encoder would do is said.
+  mission.limit_cycle_amplitude = 0.25 * half_step;
+  EXPECT_THAT(
+      [&] { (void)constraints(mission); },
+      ThrowsMessage<InfeasibleRequirement>(AllOf(
+          HasSubstr(fmt::format("at least {:.4g} mdeg", half_step / millidegree)),
+          HasSubstr(fmt::format("steps of {:.4g} mdeg instead of {:.4g}",
+                                0.5 * half_step / millidegree, 2.0 * half_step / millidegree)))));
+  mission.antenna.sensors.encoder_noise = 0.0;
+  EXPECT_NO_THROW(constraints(mission));
 }
 
 TEST(Mission, TightestBudgetIsTheLeastRms) {

@@ -24,12 +24,12 @@ MatchSeries series_of(const std::string& name, const std::vector<double>& rms) {
   return series;
 }
 
-// At 0 disks, 1 as built and 3; a budget of 1.
+// At 0 disks, 1 as built and 3; a limit cycle of 1 is allowed.
 MatchingStudy study_of(std::vector<MatchSeries> series) {
   MatchingStudy study;
   study.points = {{.disks = 0.0}, {.disks = 1.0, .as_built = true}, {.disks = 3.0}};
   study.series = std::move(series);
-  study.tightest_budget = 1.0;
+  study.allowed_limit_cycle = 1.0;
   return study;
 }
 
@@ -42,7 +42,7 @@ MatchSeries limit_cycles(MatchSeries series, double amplitude) {
   return series;
 }
 
-TEST(MatchingVerdict, WeighsNoStructureThatLimitCyclesBeyondTheTightestBudget) {
+TEST(MatchingVerdict, WeighsNoStructureThatLimitCyclesBeyondTheAllowedAmplitude) {
   const auto study = study_of({limit_cycles(series_of("PI", {0.2, 0.3, 0.4}), 30.0),
                                limit_cycles(series_of("DPF", {0.5, 0.6, 0.7}), 0.1)});
   EXPECT_TRUE(has_limit_cycle(study, study.series[0]));

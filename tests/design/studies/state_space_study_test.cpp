@@ -44,7 +44,7 @@ TEST(StateSpaceStudy, SeesLoopsAsAStateSpaceAsTheLoopsThemselves) {
   EXPECT_NEAR(study->change->value, 0.0, 1e-4);
   ASSERT_TRUE(study->simulated.result.slew);
   EXPECT_EQ(study->limit_cycle_free,
-            is_limit_cycle_free(simulated->result.limit_cycles, tightest_budget(mission)));
+            is_limit_cycle_free(simulated->result.limit_cycles, allowed_limit_cycle(mission)));
 }
 
 // An integral, friction and encoder steps: a limit cycle with the stated friction, which decides.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -88,6 +89,15 @@ std::vector<std::span<const SampledSetting>> with_and_without(
   std::vector<std::span<const SampledSetting>> result{settings};
   if (!settings.empty()) result.emplace_back();
   return result;
+}
+
+bool violated(const RefinementResult& result) {
+  return result.feasible && result.violations.value_or(0) > 0;
+}
+
+// Feasible ones first, then those with the fewest violations.
+std::pair<bool, int> rank(const RefinementResult& result) {
+  return {!result.feasible, result.violations.value_or(std::numeric_limits<int>::max())};
 }
 
 class Study {
@@ -202,15 +212,16 @@ class Study {
         options.poles = pole_bounds;
         options.violations = violations_;
         // Conditions at rest are left out before corners: simulation shows what that costs, nothing
-        // tests corners.
+        // tests corners. Without them another step may have no violations.
         for (const auto corners : with_and_without(corners_)) {
           for (const AtRest& at_rest : conditions_at_rest()) {
-            if (found && found->feasible) break;
-            if (auto next = refined(start, corners, at_rest, options)) {
-              found = std::move(next);
-              limit.refined_from = start_->name;
-            }
+            if (found && found->feasible && !violated(*found)) break;
+            auto next = refined(start, corners, at_rest, options);
+            if (!next || (found && !(rank(*next) < rank(*found)))) continue;
+            found = std::move(next);
+            limit.refined_from = start_->name;
           }
+          if (found && found->feasible) break;
         }
       }
       if (!found) {
@@ -354,12 +365,9 @@ class Study {
           goals, threads_);
       if (!constraints.stable(start)) return std::nullopt;
       RefinementResult next = refine_controller(start, constraints, options);
-      const bool violated = next.feasible && next.violations.value_or(0) > 0;
-      constexpr int not_counted = std::numeric_limits<int>::max();
-      if (!best || next.violations.value_or(not_counted) < best->violations.value_or(not_counted)) {
-        best = std::move(next);
-      }
-      if (!goals.locked_motor_gain || !violated) break;
+      const bool done = !goals.locked_motor_gain || !violated(next);
+      if (!best || rank(next) < rank(*best)) best = std::move(next);
+      if (done) break;
     }
     return best;
   }

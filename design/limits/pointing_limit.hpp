@@ -92,9 +92,10 @@ struct PointingLimit {
   /// and both peaks at the friction slopes of Constraints::standstill; |S| at its edges of the
   /// encoder; the gain from encoder to motor torque with the motor locked, 5 times
   /// Standstill::breakaway_stiffness, or 4 times if violations remain; and bounds of the poles.
-  /// Where the start is unstable on the edges or no step meets all of these, the edges are left
-  /// out, then the limit of that gain too. If that fails, the same is tried without corners. Of the
-  /// steps evaluated it has the fewest PointingLimitOptions::violations. If no start is given, or
+  /// Where the start is unstable on the edges, no step meets all of these or violations remain, the
+  /// edges are left out, then the limit of that gain too. If no step meets them then either, the
+  /// same is tried without corners. Of the steps evaluated it has the fewest
+  /// PointingLimitOptions::violations. If no start is given, or
   /// it has integrals or is unstable somewhere, it starts from the robustified LQG, under that
   /// one's constraints. None without that LQG, where poles are repeated, and where no step meets
   /// every constraint.

@@ -98,10 +98,10 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
   numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
     spectra_[i] = sampled_spectrum(*settings[i], frequency_);
   });
-  held_.assign(spectra_.begin() + static_cast<std::ptrdiff_t>(loops), spectra_.end());
+  locked_.assign(spectra_.begin() + static_cast<std::ptrdiff_t>(loops), spectra_.end());
   spectra_.resize(loops);
   corrections_ = of_centre_ = VectorXd::Constant(
-      static_cast<Index>(loops + limited_positions_ + held_.size()), peak_margin);
+      static_cast<Index>(loops + limited_positions_ + locked_.size()), peak_margin);
   references_ = constraints.rms(start).array().log();
   references_.tail(static_cast<Index>(rated_ - moving_)).array() +=
       std::log(allowance_at_standstill);
@@ -178,12 +178,12 @@ VectorXd RefinementProblem::moved(const std::vector<double>& point) const {
 
 RefinementProblem::Figures RefinementProblem::figures(
     const ParallelSections::Response& response) const {
-  Figures result{std::vector<LoopFigures>(all()), std::vector<LoopFigure>(held_.size())};
+  Figures result{std::vector<LoopFigures>(all()), std::vector<LoopFigure>(locked_.size())};
   numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
     result.loops[i] = loop_figures(spectra_[i], response.value);
   });
-  for (std::size_t i = 0; i < held_.size(); ++i) {
-    result.held[i] = locked_motor_gain(held_[i], response.value);
+  for (std::size_t i = 0; i < locked_.size(); ++i) {
+    result.locked[i] = locked_motor_gain(locked_[i], response.value);
   }
   return result;
 }
@@ -200,9 +200,9 @@ VectorXd RefinementProblem::peaks(const Figures& figures) const {
     result[static_cast<Index>(all() + i)] =
         figures.loops[i].position_peak.logarithm - std::log(goal);
   }
-  for (std::size_t i = 0; i < held_.size(); ++i) {
+  for (std::size_t i = 0; i < locked_.size(); ++i) {
     result[static_cast<Index>(all() + limited_positions_ + i)] =
-        figures.held[i].logarithm - std::log(*goals.locked_motor_gain);
+        figures.locked[i].logarithm - std::log(*goals.locked_motor_gain);
   }
   return result;
 }
@@ -279,9 +279,9 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
       }
     }
   });
-  for (std::size_t i = 0; i < held_.size(); ++i) {
+  for (std::size_t i = 0; i < locked_.size(); ++i) {
     const std::size_t row = all() + limited_positions_ + i;
-    const std::array figure{&std::as_const(found.held[i])};
+    const std::array figure{&std::as_const(found.locked[i])};
     constrain(row, peak[static_cast<Index>(row)],
               directions_.transpose() * by_parameters(derivatives, figure));
   }

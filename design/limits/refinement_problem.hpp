@@ -69,7 +69,7 @@ class RefinementProblem {
       std::span<const LoopFigure* const> figures) const;
   struct Figures {
     std::vector<LoopFigures> loops;  // a plant each
-    std::vector<LoopFigure> held;    // the gain with the motor held
+    std::vector<LoopFigure> locked;  // the gain on a locked motor
   };
   Figures figures(const ParallelSections::Response& response) const;
   Eigen::VectorXd peaks(const Figures& figures) const;
@@ -81,7 +81,7 @@ class RefinementProblem {
   Eigen::VectorXd centre_;
   Eigen::MatrixXd directions_;            // columns: steps of the parameters of unit effect
   std::vector<SampledSpectrum> spectra_;  // of the plants, at standstill, at edges, of corners
-  std::vector<SampledSpectrum> held_;     // of the plants whose gain is limited
+  std::vector<SampledSpectrum> locked_;   // of the plants whose gain is limited
   std::size_t moving_, rated_;            // the plants; these and those at standstill
   std::size_t limited_positions_;         // whose position loop's peak is limited: rated_ or 0
   Eigen::VectorXd references_;            // ln of the rms of the start, of those rated

@@ -29,7 +29,7 @@ void validate(const SampledLoopGoals& goals) {
     return value ? fmt::format(fmt::runtime(text), *value) : std::string();
   };
   throw InvalidInput(fmt::format(
-      "sampled loops: expected peaks of the sensitivity above 1, a valve_effort and a gain on a "
+      "sampled loops: expected peaks of the sensitivity above 1, a valve_effort and a gain "
       "above 0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}",
       goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak,
       if_given(", {} of the position loop", goals.position_peak), goals.control_effort,

@@ -22,7 +22,7 @@ struct SampledLoopGoals {
   /// Not limited without.
   std::optional<double> position_peak = std::nullopt;
   /// Largest gain from encoder to motor torque (SampledSetting::highest_locked_motor_gain), N
-  /// m/rad, on plants whose motor friction holds. Not limited without.
+  /// m/rad, on plants whose motor friction locks. Not limited without.
   std::optional<double> locked_motor_gain = std::nullopt;
 };
 
@@ -71,8 +71,8 @@ class RobustConstraints {
 
   /// ln of the ratio of each peak to its goal: of |S| at the valve command on the plants, those at
   /// standstill, those at edges and the corners, then of the position loop's, if limited, on the
-  /// plants and those at standstill, then of the held gain, if limited. Without regard to
-  /// stability.
+  /// plants and those at standstill, then of the gain on a locked motor, if limited. Without regard
+  /// to stability.
   Eigen::VectorXd peaks(const plant::StateSpace& controller) const;
 
   /// Boresight rms (rad of motor) on the plants, then on those at standstill, with a controller

@@ -114,7 +114,7 @@ TEST(ControllerStudy, EveryCommandPutsTheSameStateSpaceOnAnAntenna) {
   const ScratchFolder folder;
   const std::string path = folder.write(
       "case.toml", EditedCase().text() +
-                       "\n[ensemble]\ndraws = 4\n\n[tuning]\nstructures = [\"FULL+L+C\", "
+                       "\n[ensemble]\ndraws = 2\n\n[tuning]\nstructures = [\"FULL+L+C\", "
                        "\"SS\"]\nstarts = 2\n");
   const Json tuned = answer({"tune", path}, folder);
   const Json row = recommended_row(tuned.at("tuned"));

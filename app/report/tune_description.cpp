@@ -196,7 +196,7 @@ void describe_controller(io::Visitor& v, const TuneSection& section, const Tuned
                    "budget_rms", row.budget_rms(), unit::millidegree,
                    "What budgets are compared with: the larger of the linear and the simulated "
                    "rms, limit cycle added in quadrature; null if a run did not complete.");
-               v.flag("limit_cycle_within_budget", run.limit_cycle_free,
+               v.flag("limit_cycle_free", run.limit_cycle_free,
                       "No limit cycle beyond the allowed amplitude.");
                v.object("effect", row.effect(), "Beyond the linear rms.");
                v.object("expected_rms", run.expected,

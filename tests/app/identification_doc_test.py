@@ -29,9 +29,9 @@ def identify(name):
 
 
 def friction(truth, rate):
-    law = truth["friction"]
-    return (law["Fc"] + (law["Fs"] - law["Fc"]) * math.exp(-(rate / law["vs"]) ** 2)
-            + law["A"] * (1.0 - math.exp(-rate / law["v1"])) + law["b"] * rate)
+    curve = truth["friction"]
+    return (curve["Fc"] + (curve["Fs"] - curve["Fc"]) * math.exp(-(rate / curve["vs"]) ** 2)
+            + curve["A"] * (1.0 - math.exp(-rate / curve["v1"])) + curve["b"] * rate)
 
 
 def interval(estimate, scale):
@@ -41,14 +41,14 @@ def interval(estimate, scale):
 def estimates(found, truth):
     """Quantity, its value with interval, and its truth, by name."""
     posterior = {row["name"]: row["posterior"] for row in found["combined"]["quantities"]}
-    law = truth["friction"]
+    curve = truth["friction"]
     rows = [("inertia, kg m²", "inertia", 1.0, truth["reflected_inertia"]),
             ("oil stiffness, N m/rad", "oil stiffness", 1.0, truth["hydraulic_stiffness"]),
             ("bulk modulus, MPa", "bulk modulus", 1e6, truth["bulk_modulus"] / 1e6),
             ("leakage rate, 1/s", "leakage rate", 1.0, truth["leakage_rate_1_per_s"]),
             ("offset torque as recorded, N m", "offset torque as recorded", 1.0,
              truth["offset_torque_as_recorded"]),
-            ("Coulomb level, N m", "Coulomb level", 1.0, law["Fc"] + law["A"])]
+            ("Coulomb level, N m", "Coulomb level", 1.0, curve["Fc"] + curve["A"])]
     out = {title: (interval(posterior[key], scale), true) for title, key, scale, true in rows}
     tested = [row for row in found["friction"]["rows"]
               if not row["extrapolated"] and not row["tracking"]]

@@ -119,9 +119,9 @@ class MonteCarlo(unittest.TestCase):
         self.assertEqual(self.folder.rows("few"), self.folder.rows()[:150])
 
     def test_a_law_of_a_report_is_held_to_the_last_bit(self):
-        law = self.report["controller"]
-        names = [gain["name"].replace(" ", "_") for gain in law["gains"]]
-        gains = {f"{name}_x": gain["value"] for name, gain in zip(names, law["gains"])}
+        controller = self.report["controller"]
+        names = [gain["name"].replace(" ", "_") for gain in controller["gains"]]
+        gains = {f"{name}_x": gain["value"] for name, gain in zip(names, controller["gains"])}
         tuned = {"tuned": {"controllers": [{"structure": "PI", "tuned_for": "robust", "constraints_met": True,
                                      "boresight_rms_mdeg": 1.0, "design": {"gains": gains}}]}}
         (self.folder.path / "tuned.json").write_text(json.dumps(tuned))

@@ -127,16 +127,16 @@ class Octave(unittest.TestCase):
         self.assertEqual(scores[0], scores[2])
         self.assertEqual(scores[1], scores[3])
         self.assertNotEqual(scores[0], scores[1])
-        law = next(law for law in report["tuned"]["controllers"] if law["tuned_for"] == "robust")
+        robust = next(one for one in report["tuned"]["controllers"] if one["tuned_for"] == "robust")
         rms = scores[0]["design_wind"]["boresight_rms_mdeg"]
-        self.assertLess(abs(rms / law["design"]["boresight_rms_mdeg"] - 1), 1e-6)
-        for gain in law["gains_as_written"]:
+        self.assertLess(abs(rms / robust["design"]["boresight_rms_mdeg"] - 1), 1e-6)
+        for gain in robust["gains_as_written"]:
             value = float(gain["value"].split()[0])
             self.assertLess(abs(seen["gain_" + gain["symbol"]][0] / value - 1), 1e-4, gain)
         self.assertEqual(seen["sample_time"],
                          [report["linear_models"]["sampled_controller"]["sample_time"]])
         self.assertLess(seen["closed_loop_abscissa"][0], 0)
-        for cut in law["design"]["loop_breaks"]:
+        for cut in robust["design"]["loop_breaks"]:
             peak = seen["peak_" + cut["loop_break"].replace(" ", "_")][0]
             self.assertLess(abs(peak / cut["sensitivity_peak_1"] - 1), 1e-3, cut["loop_break"])
 

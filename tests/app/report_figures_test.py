@@ -73,7 +73,7 @@ class Figures(unittest.TestCase):
                                                         for v in values if v is not None))
 
 
-class Law(Near):
+class TunedControllers(Near):
     def setUp(self):
         self.found = report("redesign")
         self.figures = figures_of(self.found)
@@ -222,24 +222,24 @@ class TimeDomain(Near):
 
 
 class Studies(Near):
-    def test_structures_are_the_tuned_laws(self):
+    def test_structures_are_the_tuned_controllers(self):
         found = report("tune", TUNED)
         figure = figures_of(found)["structures"]
-        rms = {round(law["design"]["boresight_rms_mdeg"], 4) for law in found["tuned"]["controllers"]}
+        rms = {round(controller["design"]["boresight_rms_mdeg"], 4) for controller in found["tuned"]["controllers"]}
         bars = [y for series in figure["panels"][0]["series"] if "nonlinear" not in series["name"]
                 for y in series["y"]]
         self.assertGreater(len(bars), 2)
         for bar in bars:
             self.assertTrue(any(abs(bar - value) < 2e-4 for value in rms), bar)
 
-    def test_match_has_the_laws_that_hold_their_goals(self):
+    def test_match_has_the_controllers_that_meet_their_constraints(self):
         found = report("match", threads=1)
         figure = figures_of(found)["match-rms"]
         for structure in found["matched"]["series"]:
             drawn = series_of(figure, 0, structure["structure"])
-            for law, y in zip(structure["controllers"], drawn["y"]):
+            for controller, y in zip(structure["controllers"], drawn["y"]):
                 if y is not None:
-                    self.assertNear(y, law["result"]["boresight_rms_mdeg"], 1e-5)
+                    self.assertNear(y, controller["result"]["boresight_rms_mdeg"], 1e-5)
             best = structure["best"]
             self.assertTrue(any(abs(mark["y"] - best["boresight_rms_mdeg"]) < 1e-5
                                 for mark in figure["panels"][0]["marks"]))

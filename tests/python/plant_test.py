@@ -75,17 +75,17 @@ def test_other_numbers_make_another_plant(antenna, plant):
 
 
 def test_closed_loop_is_plant_and_controller_connected(antenna, plant):
-    law = boresight.controller("PI-0", {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1})
-    assert law.gains == {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1}
-    closed = boresight.closed_loop(plant, law, antenna.controller_delay)
+    loops = boresight.controller("PI-0", {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1})
+    assert loops.gains == {"kr": 0.2, "wi": 0.5, "kp": 6.0, "wip": 0.1}
+    closed = boresight.closed_loop(plant, loops, antenna.controller_delay)
     assert closed.poles().real.max() == pytest.approx(-0.0938, abs=5e-5)  # tests/examples
     # Next to no dead time: the connection can be made by hand.
-    controller = law.state_space()
+    controller = loops.state_space()
     wire = boresight.StateSpace(np.zeros((0, 0)), np.zeros((0, 1)), np.zeros((1, 0)), [[1.0]],
                                 ["valve_demand"], ["valve_command"])
     by_hand = boresight.connect([plant.state_space, controller, wire],
                                 ["wind_torque", "rate_disturbance"], ["beam"])
-    at_once = boresight.closed_loop(plant, law, 1e-6)
+    at_once = boresight.closed_loop(plant, loops, 1e-6)
     w = np.logspace(-1, 1.5, 20)
     row, column = at_once.outputs.index("beam"), at_once.inputs.index("wind_torque")
     np.testing.assert_allclose(by_hand.frequency_response(w)[:, 0, 0],
@@ -93,13 +93,13 @@ def test_closed_loop_is_plant_and_controller_connected(antenna, plant):
 
 
 def test_sampled_law_is_the_continuous_one_at_low_frequencies():
-    law = boresight.controller("PI", {"kr": 0.2, "wi": 0.5, "wp": 6.0, "kp": 6.0, "wip": 0.1})
-    sampled = law.sampled_controller(0.02)
+    loops = boresight.controller("PI", {"kr": 0.2, "wi": 0.5, "wp": 6.0, "kp": 6.0, "wip": 0.1})
+    sampled = loops.sampled_controller(0.02)
     assert sampled.sample_time == 0.02
     w = np.array([0.1, 1.0, 3.0])
     rate = [system.frequency_response(w)[:, system.outputs.index("valve_demand"),
                                          system.inputs.index("tachometer")]
-            for system in (law.state_space(), sampled)]
+            for system in (loops.state_space(), sampled)]
     np.testing.assert_allclose(rate[1], rate[0], rtol=2e-3)
 
 

@@ -65,7 +65,7 @@ def tuning(antenna):
 def test_tuning_says_what_the_program_says(tuning, program):
     report = program("tune", "--structure", "PI", "--no-limit")
     assert tuning.to_dict()["tuned"] == report["tuned"]
-    nominal, robust = [law for law in tuning.controllers if law.tuned_for != "present"]
+    nominal, robust = [controller for controller in tuning.controllers if controller.tuned_for != "present"]
     assert (nominal.tuned_for, robust.tuned_for) == ("nominal", "robust")
     assert nominal.boresight_rms / boresight.mdeg == pytest.approx(0.5395, abs=1e-4)
     assert robust.boresight_rms / boresight.mdeg == pytest.approx(0.6683, abs=1e-4)
@@ -103,7 +103,7 @@ def test_goals_can_be_changed_and_refused(antenna):
         boresight.tune(antenna, ["XYZ"])
     strict = boresight.tune(antenna, ["PI-0"], starts=1, goals={"sensitivity_peak": "1.02"})
     assert strict.best is None and strict.shortfalls
-    assert not any(law.constraints_met for law in strict.controllers)
+    assert not any(controller.constraints_met for controller in strict.controllers)
 
 
 def test_evaluation_says_what_the_program_says(antenna, program):
@@ -118,7 +118,7 @@ def test_evaluation_says_what_the_program_says(antenna, program):
     assert half.motor_to_load_ratio < as_it_is.motor_to_load_ratio
     assert half.structure == "PI-0"
     assert half.controller.structure == "PI without lag"
-    assert sum(chance for _, chance in evaluation.probabilities) == pytest.approx(1)
+    assert sum(probability for _, probability in evaluation.probabilities) == pytest.approx(1)
     assert evaluation.worth_its_cost.name in {as_it_is.name, half.name}
     with pytest.raises(boresight.InvalidInput, match="nowhere.toml"):
         boresight.evaluate(antenna, ["nowhere.toml"])

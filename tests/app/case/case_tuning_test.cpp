@@ -198,7 +198,7 @@ TEST(CaseTuning, TakesThePresentStructureWithoutGains) {
               HasSubstr("gains.kq: expected one of the keys"));
 }
 
-TEST(CaseTuning, WeighsTheSitesWind) {
+TEST(CaseTuning, WeightsTheSitesWind) {
   const io::Case antenna = with(tables());
   double sum = 0.0, at_12 = 0.0;
   for (const auto& one : antenna.wind->climate) {

@@ -261,7 +261,7 @@ TEST(Evaluate, RefusesBadProposalsBeforeAnyWork) {
   EXPECT_THAT(run.errors, HasSubstr("no-such-file.toml: expected a readable file"));
 }
 
-TEST(Evaluate, JudgesTheAntennaAsItIsWithoutProposals) {
+TEST(Evaluate, EvaluatesTheAntennaAsItIsWithoutProposals) {
   auto arguments = arguments_of({});
   arguments.time_domain = false;
   const Report report = evaluate_case(arguments, nullptr);

@@ -213,7 +213,7 @@ MatchSection within_allowed(std::vector<MatchSeries> series) {
   return section;
 }
 
-TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotLimitCycle) {
+TEST(MatchConclusions, CompareInertiaAndStructureByThoseThatDoNotLimitCycle) {
   for (const auto& third : {limit_cycles(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0),
                             limit_cycle_as_built(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}) {
     const auto sentences =
@@ -229,7 +229,7 @@ TEST(MatchConclusions, WeighInertiaAndStructureByThoseThatDoNotLimitCycle) {
               Contains(HasSubstr("by more than 0.4 %: the motors' inertia hardly matters here")));
 }
 
-TEST(MatchConclusions, WeighNothingWhereAllLimitCycle) {
+TEST(MatchConclusions, CompareNothingWhereAllLimitCycle) {
   const auto sentences =
       conclude(within_allowed({limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 1.0),
                                limit_cycles(series_of("DPF+C", {0.1, 0.3, 0.4}), 3.0)}));
@@ -301,7 +301,7 @@ TEST(MatchConclusions, NameTheStructuresThatLimitCycleAndByHowMuch) {
                                 Each(Not(HasSubstr("Freedom from limit cycles is not shown")))));
 }
 
-TEST(MatchDecision, WeighsNoLoopsThatLimitCycleWithTheMotorsAsBuilt) {
+TEST(MatchDecision, ExcludesLoopsThatLimitCycleWithTheMotorsAsBuilt) {
   const MatchSeries calm = limit_cycles(series_of("PI", {0.4, 0.5, 0.6}), 0.1);
   const auto text = [&](const std::vector<double>& rms) {
     return decision(within_allowed({calm, limit_cycle_as_built(series_of("DPF", rms), 3.0)}))[1];

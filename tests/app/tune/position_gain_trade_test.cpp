@@ -12,7 +12,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-TEST(PositionGainTrade, SpeaksOfPlantsOnlyWhereItWasJudgedOnSome) {
+TEST(PositionGainTrade, NamesPlantsOnlyWhereItWasEvaluatedOnSome) {
   const design::PositionGainTrade trade{
       {control::LoopStructure::pi(), {0.254, 1.0, 6.0, 0.25}}, 2, 0, 9.5 * millidegree, 20};
   EXPECT_THAT(trade_in_words(trade, {}, "PI with lag", 9.4551 * millidegree, 30),

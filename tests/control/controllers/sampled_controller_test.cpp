@@ -116,7 +116,7 @@ TEST(SampledController, StaysStableAndSlowlyChangingBeyondTheNyquistFrequency) {
 }
 
 // The dead time of the continuous form is one sample of computation and half a hold.
-TEST(SampledController, JudgesDesignsLikeTheContinuousFormWithItsDeadTime) {
+TEST(SampledController, EvaluatesDesignsLikeTheContinuousFormWithItsDeadTime) {
   const auto antenna = reference::antenna();
   const auto plant = plant::to_state_space(antenna);
   const Eigen::ArrayXd frequency =

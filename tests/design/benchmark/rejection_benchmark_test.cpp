@@ -97,7 +97,7 @@ TEST(RejectionBenchmark, LqgScoresWhatThePointingLimitSays) {
   EXPECT_GE(score.lyapunov_rms, *score.reference->min_rms_at_own_effort);
 }
 
-TEST(RejectionBenchmark, MembersAreJudgedAsTheTunersAre) {
+TEST(RejectionBenchmark, MembersAreEvaluatedAsTheTunersAre) {
   const auto problem = tracking_problem();
   RejectionOptions options;
   options.members = reference_ensemble(problem, 1);

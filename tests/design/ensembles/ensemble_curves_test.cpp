@@ -37,7 +37,7 @@ bool same(const EnsembleBand& one, const EnsembleBand& other) {
          (one.upper == other.upper).all();
 }
 
-TEST(EnsembleCurves, ReachThePeaksAndRmsOfTheMembersAsJudged) {
+TEST(EnsembleCurves, ReachThePeaksAndRmsOfTheMembersAsEvaluated) {
   const TrackingProblem problem = coarse_problem();
   const auto members = three_members(problem);
   const auto controller = reference::cautious_gains();
@@ -135,7 +135,7 @@ TEST(EnsembleCurves, AreTheSameForAnyNumberOfThreads) {
   }
 }
 
-TEST(EnsembleCurves, RefuseOtherMembersThanWereJudged) {
+TEST(EnsembleCurves, RefuseOtherMembersThanWereEvaluated) {
   const TrackingProblem problem = coarse_problem();
   const auto members = three_members(problem);
   const auto controller = reference::cautious_gains();

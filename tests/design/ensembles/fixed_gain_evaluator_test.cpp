@@ -176,7 +176,7 @@ TEST(FixedGainEvaluator, DoesNotRememberThePlantBefore) {
   }
 }
 
-TEST(FixedGainEvaluator, WeighsTheClimatesWinds) {
+TEST(FixedGainEvaluator, WeightsTheClimatesWinds) {
   auto problem = reference::tracking_problem();
   auto strong = problem.wind;
   strong.mean_speed = 15.0;
@@ -192,7 +192,7 @@ TEST(FixedGainEvaluator, WeighsTheClimatesWinds) {
   EXPECT_GT(at_15.wind_variance, 3.0 * both.wind_variance);
 }
 
-TEST(FixedGainEvaluator, RefusesWhatItCannotJudge) {
+TEST(FixedGainEvaluator, RefusesWhatItCannotEvaluate) {
   const auto problem = reference::tracking_problem();
   const auto controller = reference::cautious_gains();
   EXPECT_THAT(

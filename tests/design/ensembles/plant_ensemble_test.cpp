@@ -25,7 +25,7 @@ EnsembleMember member(const TrackingProblem& problem, const std::string& name, d
   return one;
 }
 
-TEST(PlantEnsemble, JudgesTheNominalPlantAsAnEvaluationDoes) {
+TEST(PlantEnsemble, EvaluatesTheNominalPlantAsAnEvaluationDoes) {
   const TrackingProblem problem = coarse_problem();
   const auto controller = reference::cautious_gains();
   const auto result = evaluate(problem, {{"nominal", problem.plant}}, controller, {}, 1);

@@ -39,7 +39,7 @@ TEST(ProposedPlant, TakesTheFrictionSlopeAtTheProposalsTrackingRate) {
 }
 
 // On the plant as it is, by the evaluator that the search uses.
-TEST(FixedGainCandidate, JudgesAsTheTunersEvaluatorTimesTheFactor) {
+TEST(FixedGainCandidate, EvaluatesAsTheTunersEvaluatorTimesTheFactor) {
   const Mission mission = reference::uncertain_mission();
   const CandidateController controller = reference::fixed_controller("PI", 1.25);
   FixedGainCandidate candidates(mission.antenna, mission, controller);

@@ -42,7 +42,7 @@ MatchSeries limit_cycles(MatchSeries series, double amplitude) {
   return series;
 }
 
-TEST(MatchingVerdict, WeighsNoStructureThatLimitCyclesBeyondTheAllowedAmplitude) {
+TEST(MatchingVerdict, ExcludesStructuresThatLimitCycleBeyondTheAllowedAmplitude) {
   const auto study = study_of({limit_cycles(series_of("PI", {0.2, 0.3, 0.4}), 30.0),
                                limit_cycles(series_of("DPF", {0.5, 0.6, 0.7}), 0.1)});
   EXPECT_TRUE(has_limit_cycle(study, study.series[0]));
@@ -88,7 +88,7 @@ TEST(MatchingVerdict, NamesInertiasAsGoodBeyondTheFlatRange) {
   EXPECT_TRUE(as_good_elsewhere(study, study.series[0]).empty());
 }
 
-TEST(MatchingVerdict, RulesCostWhatTheStructuresWeighedPay) {
+TEST(MatchingVerdict, RulesCostWhatTheComparedStructuresPay) {
   const auto study = study_of({series_of("PI", {1.0, 1.2, 1.3}), series_of("DPF", {0.9, 0.8, 0.7}),
                                limit_cycles(series_of("LL", {0.5, 0.6, 0.7}), 30.0)});
   const RuleVerdict rule{ClassicRule::one_to_one, 1.0, 1.0, {0.2, 0.1, 0.9}};

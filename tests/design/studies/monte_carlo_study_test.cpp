@@ -115,7 +115,7 @@ TEST(SampledProbabilities, AreThoseOfTheStudyInEachBudgetsWind) {
 }
 
 // As many plants meet a budget as have a linear rms below what the simulation leaves of it.
-TEST(StudyMonteCarlo, JudgesBudgetsByTheSimulationOfItsController) {
+TEST(StudyMonteCarlo, EvaluatesBudgetsByTheSimulationOfItsController) {
   Mission mission = mission_of_test();
   const auto distribution = PlantDistribution::of_ranges(mission);
   const MonteCarloOptions options{.plants = 100, .seed = 1};

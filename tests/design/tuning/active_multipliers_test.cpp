@@ -55,7 +55,7 @@ TEST(ActiveMultipliers, ArePricesOfTheConstraints) {
   EXPECT_LT(found.residual, 1e-9);
 }
 
-TEST(ActiveMultipliers, WeighTheObjectivesThatMeetAtAKink) {
+TEST(ActiveMultipliers, WeightTheObjectivesThatMeetAtAKink) {
   // The larger of x and -2 x meets at 0: weights 2/3 and 1/3.
   ActiveSet active;
   active.objectives = Eigen::Vector2d(1.0, -2.0);

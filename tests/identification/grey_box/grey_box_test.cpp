@@ -222,7 +222,7 @@ TEST(FitGreyBox, TakesKnowledgeWithoutUncertaintyAndADriveWithoutStructure) {
 
 TEST(FitGreyBox, IntervalsHoldOverAFamilyOfDrives) {
   // Truths drawn from the priors, transducers off by their standard uncertainties: of four drives
-  // and five quantities, 20 intervals of 95 %, fewer than 16 have a chance of 3e-3.
+  // and five quantities, 20 intervals of 95 %, fewer than 16 have a probability of 3e-3.
   const Truth reference;
   reference::RandomNumbers random(3);
   const auto normal = [&] {

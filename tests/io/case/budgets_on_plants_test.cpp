@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::Eq;
 using testing::Optional;
 
-TEST(BudgetsOnPlants, AreJudgedInTheirOwnWind) {
+TEST(BudgetsOnPlants, AreEvaluatedInTheirOwnWind) {
   const Case antenna = read_case(case_path("dss14-70m"));
   const auto problem = make_problem(antenna);
   const auto members = design::plant_members(mission_of(antenna), 1);

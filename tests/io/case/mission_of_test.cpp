@@ -109,7 +109,7 @@ TEST(MissionOf, CrestFactorAsksForTorqueThatTheSupplyHas) {
   EXPECT_THROW(make_goals(stated), InvalidInput);
 }
 
-TEST(MissionOf, ClimateWeighsTheCasesWind) {
+TEST(MissionOf, ClimateWeightsTheCasesWind) {
   Case stated = reference();
   EXPECT_TRUE(make_climate(stated).empty());
   stated.wind->climate = {{5.0, 0.75}, {12.0, 0.25}};

@@ -105,14 +105,14 @@ TEST(MovableNumbers, KeepTheSumOfFractions) {
   const Case antenna = own_case();
   const auto weight = number_of(movable_numbers(antenna), "structure.mode[0].beam_weight");
   EXPECT_EQ(weight.fraction_of_mode, 0U);
-  const Case heavier = moved(antenna, weight, true);
+  const Case weighted = moved(antenna, weight, true);
   const double maximum = weight.range.value().second;
-  EXPECT_NEAR(heavier.structure->modes[0].beam_weight.value, maximum, 1e-12);
-  EXPECT_NEAR(boresight_fractions(heavier), boresight_fractions(antenna), 1e-12);
-  EXPECT_EQ(wind_fractions(heavier), wind_fractions(antenna));
+  EXPECT_NEAR(weighted.structure->modes[0].beam_weight.value, maximum, 1e-12);
+  EXPECT_NEAR(boresight_fractions(weighted), boresight_fractions(antenna), 1e-12);
+  EXPECT_EQ(wind_fractions(weighted), wind_fractions(antenna));
   const double left = (1.0 - maximum) / (1.0 - antenna.structure->modes[0].beam_weight.value);
   for (std::size_t i = 1; i < antenna.structure->modes.size(); ++i) {
-    EXPECT_NEAR(heavier.structure->modes[i].beam_weight.value,
+    EXPECT_NEAR(weighted.structure->modes[i].beam_weight.value,
                 left * antenna.structure->modes[i].beam_weight.value, 1e-12);
   }
 }

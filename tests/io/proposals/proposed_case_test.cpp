@@ -332,14 +332,14 @@ TEST(ProposedCase, StifferGearLeavesTheStructureOnIt) {
 }
 
 TEST(ProposedCase, StifferGearComesOnTopOfWhatFollows) {
-  const Case heavy =
+  const Case of_high_inertia =
       with(
           "[antenna]\ninertia = { factor = '1.2' }\n[structure]\ngear_stiffness = { factor = '1.1' "
           "}\n")
           .antenna;
-  EXPECT_NEAR(
-      make_plant(heavy).structure.gear_stiffness / make_plant(as_is()).structure.gear_stiffness,
-      1.1 * 1.2, 1e-9);
+  EXPECT_NEAR(make_plant(of_high_inertia).structure.gear_stiffness /
+                  make_plant(as_is()).structure.gear_stiffness,
+              1.1 * 1.2, 1e-9);
 }
 
 // In other terms a number is as uncertain for its size, and says as much of where it is from.

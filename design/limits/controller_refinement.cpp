@@ -23,7 +23,14 @@ constexpr double first_radius = 8e-3, min_radius = 1e-4, max_radius = 0.5, growt
 // Steps at which RefinementOptions::violations is evaluated.
 constexpr int max_evaluated = 6;
 constexpr std::size_t first_stride = 2;
+// Of the rms: between steps that differ by less no further one is evaluated.
+constexpr double to_gain = 0.01;
 constexpr double worthwhile = 1e-4;
+// The search ends after so many steps without that gain since the last one that counted, and where
+// the objective fell by less than `slow` over so many steps.
+constexpr int max_idle = 4;
+constexpr std::size_t recent = 12;
+constexpr double slow = 4e-3;
 
 PoleBounds attainable(const PoleBounds& bounds, const plant::StateSpace& start) {
   const PoleBounds own = bounds_of(start);
@@ -44,7 +51,8 @@ class Refinement {
         start, constraints_.largest_rms(start), !(violation > 0.0), 0, std::nullopt, 0};
     double radius = first_radius;
     double objective = 0.0;
-    int corrected = 0;
+    int corrected = 0, idle = 0;
+    std::vector<double> objectives;      // at each step from a centre that met every constraint
     std::vector<RefinementResult> path;  // the steps that met every constraint
     const auto shorten = [&] {
       radius *= 0.5;
@@ -52,9 +60,15 @@ class Refinement {
       corrected = 0;
     };
     for (int i = 0; i < options_.steps && radius >= min_radius; ++i) {
+      if (result.feasible) objectives.push_back(objective);
+      if (objectives.size() > recent &&
+          objectives[objectives.size() - 1 - recent] - objectives.back() < slow) {
+        break;
+      }
       RefinementProblem::Step found = problem_.step(radius);
       result.evaluations += found.evaluations;
       if (!(found.gain > worthwhile)) {
+        if (++idle == max_idle) break;
         shorten();
         continue;
       }
@@ -89,7 +103,7 @@ class Refinement {
         shorten();
         continue;
       }
-      corrected = 0;
+      corrected = idle = 0;
       objective = next;
       violation = excess;
       problem_.correct(found, peaks, RefinementProblem::Correction::afresh);
@@ -119,6 +133,10 @@ class Refinement {
       least = std::min(violations, least);
       if (least == 0) {
         if (best + 1 >= later) break;
+        if (later < path.size() &&
+            path[best].boresight_rms < (1.0 + to_gain) * path[later].boresight_rms) {
+          break;
+        }
         place = best + (later - best) / 2;
       } else {
         if (place == 0) break;

@@ -12,7 +12,7 @@ namespace boresight::design {
 using CountViolations = std::function<int(const plant::StateSpace&, int enough)>;
 
 struct RefinementOptions {
-  /// Steps of the search. Each takes about 0.2 s of computing with 46 plants and order 31.
+  /// Largest number of steps. Each takes about 0.4 s of one processor with 49 plants and order 31.
   int steps = 24;
   /// Bounds of the controller's poles; the start's own where it violates them. An error that a slew
   /// leaves in a slow pole decays as slowly.
@@ -20,10 +20,11 @@ struct RefinementOptions {
   /// Number of violations of a requirement that is too expensive to evaluate at every step, such as
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
   /// 2, 6, 14 and so on steps before it, down to the first, until a step has none. The interval
-  /// from that step to the next evaluated one with violations is then halved. At most 6
-  /// evaluations; `enough` is the least count so far, at least 1. The result is the last step found
-  /// without violations, else the one with the fewest, the latest of several. Empty, or without an
-  /// accepted step that meets every constraint: the last step.
+  /// from that step to the next evaluated one with violations is then halved, as long as their rms
+  /// differ by more than 1 %. At most 6 evaluations; `enough` is the least count so far, at
+  /// least 1. The result is the last step found without violations, else the one with the fewest,
+  /// the latest of several. Empty, or without an accepted step that meets every constraint: the
+  /// last step.
   CountViolations violations = {};
 };
 
@@ -43,15 +44,16 @@ struct RefinementResult {
 /// The objective is the largest ratio of an rms to that of the start on the same plant
 /// (RefinementProblem::objective). It includes the rms on each plant at standstill, which
 /// represents wind with much friction; otherwise the result would suit the frictionless antenna
-/// only. Plants at an edge of the encoder and corners must be stable and limit |S| at the valve, no
-/// more; those with a locked motor limit the gain on it alone.
+/// only. Plants at an edge of the encoder and corners must be stable and limit only |S| at the
+/// valve. A plant with a locked motor limits only the gain from encoder to motor torque.
 ///
 /// Each step is a search by sequential quadratic programming within a box about the present
 /// controller (RefinementProblem). A step is accepted if the exact quantities of RobustConstraints
 /// confirm it, and the box then grows. A step with a small violation is repeated with corrected
-/// peaks, at most twice; otherwise the box shrinks. The result is a local optimum or on the way to
-/// one. From a feasible start the objective does not increase. The problem is not convex: another
-/// start may lead to a better result.
+/// peaks, at most twice; otherwise the box shrinks. The search ends where four steps since the last
+/// accepted one lower the objective by less than 1e-4, or twelve by less than 4e-3 together. The
+/// result is a local optimum or on the way to one. From a feasible start the objective does not
+/// increase. The problem is not convex: another start may lead to a better result.
 /// @throws InvalidInput as ParallelSections, for fewer than 1 step and a start that is not stable
 /// on all plants; NumericalFailure as ParallelSections.
 RefinementResult refine_controller(const plant::StateSpace& start,

@@ -53,7 +53,7 @@ std::vector<double> standstill_slopes(const Standstill& standstill) {
 
 // Fraction of the allowed Ms - 1 that the design uses. The rest is a reserve for plants other than
 // members and corners (docs/limit-cycles.md: what part of sampled plants keeps the constraints).
-constexpr double used_of_peak = 0.75;
+constexpr double used_of_peak = 0.70;
 // N m s/rad: with so much friction the motor does not move.
 constexpr double locking_friction = 1e7;
 // Limits of the gain from encoder to motor torque with the motor locked, over

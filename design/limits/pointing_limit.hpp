@@ -95,10 +95,9 @@ struct PointingLimit {
   /// Where the start is unstable on the edges, no step meets all of these or violations remain, the
   /// edges are left out, then the limit of that gain too. If no step meets them then either, the
   /// same is tried without corners. Of the steps evaluated it has the fewest
-  /// PointingLimitOptions::violations. If no start is given, or
-  /// it has integrals or is unstable somewhere, it starts from the robustified LQG, under that
-  /// one's constraints. None without that LQG, where poles are repeated, and where no step meets
-  /// every constraint.
+  /// PointingLimitOptions::violations. If no start is given, or it has integrals or is unstable
+  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
+  /// LQG, where poles are repeated, and where no step meets every constraint.
   std::optional<SampledDesign> refined;
   /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
   std::string refined_from;
@@ -136,7 +135,7 @@ struct PointingLimitOptions {
 /// valve command; PointingLimit::refined has further ones. Each design is evaluated from its closed
 /// loop: eigenvalues, covariance, response. The result does not depend on the number of threads.
 /// Takes about a second without members; the robust search takes some 0.3 s per member on one
-/// thread, the refinement 1.2 s, besides what `violations` takes.
+/// thread, the refinement 0.6 s, besides what `violations` takes.
 /// @throws InvalidInput for an encoder or tachometer without noise, a sample time that is not
 /// positive, controllers that are not valid; NumericalFailure for a plant that is not controllable
 /// or observable.

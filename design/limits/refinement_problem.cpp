@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 constexpr Index sensors = ParallelSections::sensors;
 // Between neighbours on the grid of the gradients: a resonance of 0.5 % damping has some points.
-constexpr double spacing = 1.004;
+constexpr double spacing = 1.005;
 // Below the grid, where slow poles of a controller act.
 constexpr double slow_spacing = 1.3, slow_decades = 3.0;
 // Logarithmic reserves of peaks and effort, and the violation of them that counts as none.
@@ -28,13 +28,13 @@ constexpr double correction_fall = 0.7;
 constexpr double allowance_at_standstill = 1.15;
 // Penalty per logarithmic violation, above what a violation can gain.
 constexpr double slack_cost = 5.0, max_slack = 3.0;
-constexpr int evaluations_a_step = 20;
+constexpr int evaluations_a_step = 30;
 constexpr std::size_t plants_a_block = 6;
-constexpr Index figures_a_plant = 4;
+constexpr Index figures_a_plant = 2;
 // A unit of the coordinates changes figures by about this fraction of themselves, over all plants.
 constexpr double unit_change = 0.4;
 // Of the largest curvature, scaled: directions with less hardly matter and get no more room.
-constexpr double min_curvature = 1e-3;
+constexpr double min_curvature = 5e-3;
 
 Eigen::ArrayXd refinement_frequencies(const Eigen::ArrayXd& grid) {
   std::vector<double> kept;
@@ -52,6 +52,17 @@ Eigen::ArrayXd refinement_frequencies(const Eigen::ArrayXd& grid) {
 MatrixXd stacked(const Eigen::MatrixXcd& matrix) {
   MatrixXd result(2 * matrix.rows(), matrix.cols());
   result << matrix.real(), matrix.imag();
+  return result;
+}
+
+// Per sensor, parameters_of(it) x 2 frequencies: first the real parts, then the imaginary ones.
+std::array<MatrixXd, sensors> transposed_derivatives(const ParallelSections::Response& response) {
+  std::array<MatrixXd, sensors> result;
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Eigen::MatrixXcd& derivative = response.by_parameters.at(i);
+    result.at(i).resize(derivative.cols(), 2 * derivative.rows());
+    result.at(i) << derivative.real().transpose(), derivative.imag().transpose();
+  }
   return result;
 }
 
@@ -98,7 +109,9 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
   numerics::for_each_index(settings.size(), constraints.threads(), [&](std::size_t i) {
     spectra_[i] = sampled_spectrum(*settings[i], frequency_);
   });
-  locked_.assign(spectra_.begin() + static_cast<std::ptrdiff_t>(loops), spectra_.end());
+  for (std::size_t i = 0; i < spectra_.size(); ++i) {
+    (i < loops ? evaluators_ : locked_).emplace_back(spectra_[i]);
+  }
   spectra_.resize(loops);
   corrections_ = of_centre_ = VectorXd::Constant(
       static_cast<Index>(loops + limited_positions_ + locked_.size()), peak_margin);
@@ -176,14 +189,18 @@ VectorXd RefinementProblem::moved(const std::vector<double>& point) const {
   return centre_ + directions_ * Eigen::Map<const VectorXd>(point.data(), directions_.cols());
 }
 
-RefinementProblem::Figures RefinementProblem::figures(
-    const ParallelSections::Response& response) const {
-  Figures result{std::vector<LoopFigures>(all()), std::vector<LoopFigure>(locked_.size())};
+RefinementProblem::Figures RefinementProblem::figures(const ArrayXXcd& response) const {
+  const std::vector<SensorPack> controller = packed_response(response);
+  Figures result{std::vector<LoopFigures>(all()), {}};
   numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
-    result.loops[i] = loop_figures(spectra_[i], response.value);
+    if (i < rated_) {
+      result.loops[i] = evaluators_[i].figures(controller);
+    } else {
+      result.loops[i].peaks = evaluators_[i].peaks(controller);
+    }
   });
-  for (std::size_t i = 0; i < locked_.size(); ++i) {
-    result.locked[i] = locked_motor_gain(locked_[i], response.value);
+  for (const LoopFigureEvaluator& one : locked_) {
+    result.locked.push_back(one.locked_motor_gain(controller));
   }
   return result;
 }
@@ -192,13 +209,13 @@ VectorXd RefinementProblem::peaks(const Figures& figures) const {
   VectorXd result(corrections_.size());
   for (std::size_t i = 0; i < all(); ++i) {
     result[static_cast<Index>(i)] =
-        figures.loops[i].sensitivity_peak.logarithm - std::log(peak_goal(i));
+        figures.loops[i].peaks.sensitivity_peak.logarithm - std::log(peak_goal(i));
   }
   const SampledLoopGoals& goals = constraints_.goals();
   for (std::size_t i = 0; i < limited_positions_; ++i) {
     const double goal = i < moving_ ? *goals.position_peak : goals.standstill_peak;
     result[static_cast<Index>(all() + i)] =
-        figures.loops[i].position_peak.logarithm - std::log(goal);
+        figures.loops[i].peaks.position_peak.logarithm - std::log(goal);
   }
   for (std::size_t i = 0; i < locked_.size(); ++i) {
     result[static_cast<Index>(all() + limited_positions_ + i)] =
@@ -207,19 +224,42 @@ VectorXd RefinementProblem::peaks(const Figures& figures) const {
   return result;
 }
 
-// 2 Re sum(gradient * dK) per parameter: a column a figure.
-MatrixXd RefinementProblem::by_parameters(const std::array<MatrixXd, sensors>& derivatives,
-                                          std::span<const LoopFigure* const> figures) const {
-  MatrixXd weights(2 * frequency_.size(), static_cast<Index>(figures.size()));
+// 2 Re sum(gradient * dK) per parameter.
+MatrixXd RefinementProblem::by_parameters(const Derivatives& derivatives,
+                                          std::span<const RmsFigure* const> figures) const {
+  const Index count = frequency_.size();
+  constexpr auto pack = static_cast<Index>(numerics::pack_size);
+  MatrixXd weights(2 * count, static_cast<Index>(figures.size()));
   MatrixXd result = MatrixXd::Zero(centre_.size(), weights.cols());
-  for (Index sensor = 0; sensor < sensors; ++sensor) {
-    Index column = 0;
-    for (const LoopFigure* figure : figures) {
-      const auto gradient = figure->gradient.col(sensor);
-      weights.col(column++) << gradient.real(), -gradient.imag();
+  for (std::size_t sensor = 0; sensor < derivatives.size(); ++sensor) {
+    for (Index column = 0; column < weights.cols(); ++column) {
+      const auto& gradient = figures[static_cast<std::size_t>(column)]->gradient;
+      for (Index k = 0; k < count; ++k) {
+        const auto& at = gradient[static_cast<std::size_t>(k / pack)].at(sensor);
+        const auto lane = static_cast<std::size_t>(k % pack);
+        weights(k, column) = at.re[lane];
+        weights(count + k, column) = -at.im[lane];
+      }
     }
-    result(sections_.parameters_of(sensor), Eigen::all) +=
-        2.0 * derivatives.at(static_cast<std::size_t>(sensor)).transpose() * weights;
+    result(sections_.parameters_of(static_cast<Index>(sensor)), Eigen::all) +=
+        2.0 * derivatives.at(sensor) * weights;
+  }
+  return result;
+}
+
+VectorXd RefinementProblem::by_parameters(const Derivatives& derivatives,
+                                          const PeakFigure& figure) const {
+  const Index count = frequency_.size();
+  VectorXd result = VectorXd::Zero(centre_.size());
+  for (std::size_t sensor = 0; sensor < derivatives.size(); ++sensor) {
+    const MatrixXd& derivative = derivatives.at(sensor);
+    VectorXd sum = VectorXd::Zero(derivative.rows());
+    for (const PeakFigure::Point& point : figure.points) {
+      const std::complex<double>& weight = point.gradient.at(sensor);
+      sum += weight.real() * derivative.col(point.frequency) -
+             weight.imag() * derivative.col(count + point.frequency);
+    }
+    result(sections_.parameters_of(static_cast<Index>(sensor))) += 2.0 * sum;
   }
   return result;
 }
@@ -230,10 +270,7 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
                                  ConstrainedValues& values) const {
   const VectorXd parameters = moved(point);
   const auto response = sections_.response(parameters, frequency_);
-  std::array<MatrixXd, sensors> derivatives;
-  for (std::size_t i = 0; i < derivatives.size(); ++i) {
-    derivatives.at(i) = stacked(response.by_parameters.at(i));
-  }
+  const Derivatives derivatives = transposed_derivatives(response);
   const Index size = centre_.size();
   const double slack = point.back();
   const auto store = [&](std::vector<double>& rows, std::size_t row, const auto& gradient,
@@ -246,44 +283,47 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
     values.constraints[row] = value - slack;
     store(values.constraint_gradients, row, gradient, -1.0);
   };
-  const Figures found = figures(response);
+  const Figures found = figures(response.value);
   const std::vector<LoopFigures>& of = found.loops;
   const VectorXd peak = peaks(found) + corrections_;
   const auto efforts = static_cast<std::size_t>(peak.size());
   const double effort_goal = std::log(constraints_.goals().control_effort) - effort_margin;
   // Products of some plants at a time: more would not stay in the processor's cache.
-  const std::size_t blocks = (all() + plants_a_block - 1) / plants_a_block;
+  const std::size_t blocks = (rated_ + plants_a_block - 1) / plants_a_block;
   numerics::for_each_index(blocks, constraints_.threads(), [&](std::size_t block) {
     const std::size_t first = block * plants_a_block;
-    const std::size_t last = std::min(first + plants_a_block, all());
-    std::vector<const LoopFigure*> figures;
+    const std::size_t last = std::min(first + plants_a_block, rated_);
+    std::vector<const RmsFigure*> figures;
     for (std::size_t i = first; i < last; ++i) {
-      figures.insert(figures.end(), {&of[i].boresight_rms, &of[i].control_effort,
-                                     &of[i].sensitivity_peak, &of[i].position_peak});
+      figures.insert(figures.end(), {&of[i].boresight_rms, &of[i].control_effort});
     }
     const MatrixXd gradients = directions_.transpose() * by_parameters(derivatives, figures);
     for (std::size_t i = first; i < last; ++i) {
-      const auto gradient = [&](Index figure) {
-        return gradients.col(figures_a_plant * static_cast<Index>(i - first) + figure);
-      };
-      const auto place = [](std::size_t row) { return static_cast<Index>(row); };
-      if (i < rated_) {
-        values.objectives[i] =
-            of[i].boresight_rms.logarithm - references_[place(i)] + slack_cost * slack;
-        store(values.objective_gradients, i, gradient(0), slack_cost);
-      }
-      constrain(i, peak[place(i)], gradient(2));
-      if (i < limited_positions_) constrain(all() + i, peak[place(all() + i)], gradient(3));
+      const Index column = figures_a_plant * static_cast<Index>(i - first);
+      values.objectives[i] =
+          of[i].boresight_rms.logarithm - references_[static_cast<Index>(i)] + slack_cost * slack;
+      store(values.objective_gradients, i, gradients.col(column), slack_cost);
       if (i < moving_) {
-        constrain(efforts + i, of[i].control_effort.logarithm - effort_goal, gradient(1));
+        constrain(efforts + i, of[i].control_effort.logarithm - effort_goal,
+                  gradients.col(column + 1));
       }
     }
   });
+  MatrixXd by_peaks(size, peak.size());
+  for (std::size_t i = 0; i < all(); ++i) {
+    const LoopPeaks& on = of[i].peaks;
+    by_peaks.col(static_cast<Index>(i)) = by_parameters(derivatives, on.sensitivity_peak);
+    if (i < limited_positions_) {
+      by_peaks.col(static_cast<Index>(all() + i)) = by_parameters(derivatives, on.position_peak);
+    }
+  }
   for (std::size_t i = 0; i < locked_.size(); ++i) {
-    const std::size_t row = all() + limited_positions_ + i;
-    const std::array figure{&std::as_const(found.locked[i])};
-    constrain(row, peak[static_cast<Index>(row)],
-              directions_.transpose() * by_parameters(derivatives, figure));
+    by_peaks.col(static_cast<Index>(all() + limited_positions_ + i)) =
+        by_parameters(derivatives, found.locked[i]);
+  }
+  const MatrixXd gradients = directions_.transpose() * by_peaks;
+  for (Index row = 0; row < peak.size(); ++row) {
+    constrain(static_cast<std::size_t>(row), peak[row], gradients.col(row));
   }
   const auto stability = sections_.stability(parameters);
   for (Index k = 0; k < stability.conditions.size(); ++k) {
@@ -328,7 +368,7 @@ RefinementProblem::Step RefinementProblem::step(double radius) const {
   result.gain = at_centre - least;
   result.evaluations = search.evaluations();
   result.controller = sections_.state_space(result.parameters);
-  result.peaks = peaks(figures(sections_.response(result.parameters, frequency_)));
+  result.peaks = peaks(figures(sections_.response(result.parameters, frequency_).value));
   return result;
 }
 

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <boresight/design/limits/loop_figures.hpp>
 #include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/robust_constraints.hpp>
 #include <boresight/design/limits/sampled_spectrum.hpp>
@@ -15,7 +16,7 @@ namespace boresight::design {
 
 /// The optimisation problem of one step of refine_controller: minimise the largest ratio of an rms
 /// to that of the start on the same plant, within the constraints, over all parameters of a
-/// controller (ParallelSections). Values and gradients are the figures of SampledSpectrum on every
+/// controller (ParallelSections). Values and gradients are those of LoopFigureEvaluator on every
 /// plant. These are evaluated at discrete frequencies; correct() adds the difference to the exact
 /// peaks.
 class RefinementProblem {
@@ -64,14 +65,16 @@ class RefinementProblem {
   void choose_directions();
   Eigen::MatrixXd curvature(const ParallelSections::Response& response) const;
   Eigen::VectorXd moved(const std::vector<double>& point) const;
-  Eigen::MatrixXd by_parameters(
-      const std::array<Eigen::MatrixXd, ParallelSections::sensors>& derivatives,
-      std::span<const LoopFigure* const> figures) const;
+  // By all parameters, a column a figure. `derivatives`: see transposed_derivatives.
+  using Derivatives = std::array<Eigen::MatrixXd, ParallelSections::sensors>;
+  Eigen::MatrixXd by_parameters(const Derivatives& derivatives,
+                                std::span<const RmsFigure* const> figures) const;
+  Eigen::VectorXd by_parameters(const Derivatives& derivatives, const PeakFigure& figure) const;
   struct Figures {
-    std::vector<LoopFigures> loops;  // a plant each
-    std::vector<LoopFigure> locked;  // the gain on a locked motor
+    std::vector<LoopFigures> loops;  // a plant each; of those not rated only the peaks
+    std::vector<PeakFigure> locked;  // the gain on a locked motor
   };
-  Figures figures(const ParallelSections::Response& response) const;
+  Figures figures(const Eigen::ArrayXXcd& response) const;
   Eigen::VectorXd peaks(const Figures& figures) const;
   void evaluate(const std::vector<double>& point, ConstrainedValues& values) const;
 
@@ -81,12 +84,13 @@ class RefinementProblem {
   Eigen::VectorXd centre_;
   Eigen::MatrixXd directions_;            // columns: steps of the parameters of unit effect
   std::vector<SampledSpectrum> spectra_;  // of the plants, at standstill, at edges, of corners
-  std::vector<SampledSpectrum> locked_;   // of the plants whose gain is limited
-  std::size_t moving_, rated_;            // the plants; these and those at standstill
-  std::size_t limited_positions_;         // whose position loop's peak is limited: rated_ or 0
-  Eigen::VectorXd references_;            // ln of the rms of the start, of those rated
-  Eigen::VectorXd of_centre_;             // the corrections that the centre needs
-  Eigen::VectorXd corrections_;           // ln, of the peaks
+  std::vector<LoopFigureEvaluator> evaluators_;  // of the same plants
+  std::vector<LoopFigureEvaluator> locked_;      // of the plants whose gain is limited
+  std::size_t moving_, rated_;                   // the plants; these and those at standstill
+  std::size_t limited_positions_;  // whose position loop's peak is limited: rated_ or 0
+  Eigen::VectorXd references_;     // ln of the rms of the start, of those rated
+  Eigen::VectorXd of_centre_;      // the corrections that the centre needs
+  Eigen::VectorXd corrections_;    // ln, of the peaks
 };
 
 }  // namespace boresight::design

@@ -17,14 +17,8 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 
 constexpr Index sensors = 3;
-constexpr Index tachometer = 0, encoder = 1, motor_torque = 2;
 // Of a variance: what is left out of the densities.
 constexpr double negligible = 1e-9;
-// p of the smooth peak: it exceeds the largest |S| by less than 1 %.
-constexpr double sharpness = 400.0;
-// Of ln |S| below the peak: values from there on count for less than 1e-8 of it. Without the limit
-// their powers are denormal numbers, which take most of the time of a search.
-constexpr double counted = 0.05;
 
 // V with V V' = Q to `negligible` of each diagonal element: the factor's columns fall off.
 MatrixXd leading_factor(const MatrixXd& q, const char* what) {
@@ -72,21 +66,6 @@ double boresight_mean_square(const SampledSpectrum& spectrum, const ArrayXXcd& c
                                  2.0 * (closed * spectrum.cross).rowwise().sum().real() +
                                  spectrum.by_command * (closed * seen).rowwise().sum().real();
   return (spectrum.weights * density).sum() + spectrum.unavoidable_cost;
-}
-
-// ln of the smooth upper bound of the largest magnitude, and half of each value's fraction of it.
-struct SmoothPeak {
-  double logarithm = 0.0;
-  Eigen::ArrayXd fractions;
-};
-
-SmoothPeak smooth_peak(const ArrayXcd& values) {
-  const Eigen::ArrayXd level = values.abs().log();
-  const double top = level.maxCoeff();
-  const Eigen::ArrayXd powers =
-      (level > top - counted).select(((level - top) * sharpness).exp(), 0.0);
-  const double sum = powers.sum();
-  return {top + std::log(sum) / sharpness, 0.5 / sum * powers};
 }
 
 }  // namespace
@@ -140,57 +119,6 @@ SampledSpectrum sampled_spectrum(const SampledSetting& setting, const Eigen::Arr
 
 ArrayXcd sensitivity_function(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
   return (1.0 - (controller * spectrum.response).rowwise().sum()).inverse();
-}
-
-LoopFigures loop_figures(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  const ArrayXcd sensitivity = sensitivity_function(spectrum, controller);
-  const ArrayXXcd closed = controller.colwise() * sensitivity;
-  LoopFigures result;
-
-  const SmoothPeak peak = smooth_peak(sensitivity);
-  result.sensitivity_peak = {peak.logarithm,
-                             spectrum.response.colwise() * (sensitivity * peak.fractions)};
-  const ArrayXcd inner = inner_return_difference(spectrum.response, controller);
-  const SmoothPeak of_position = smooth_peak(sensitivity * inner);
-  result.position_peak = {of_position.logarithm,
-                          spectrum.response.colwise() * (sensitivity * of_position.fractions)};
-  // The position loop's S = (1 + inner loops) S: it also changes with the inner ones.
-  for (const Index sensor : {tachometer, motor_torque}) {
-    result.position_peak.gradient.col(sensor) -=
-        spectrum.response.col(sensor) * of_position.fractions / inner;
-  }
-
-  // With the command u = S K y, a change dK adds d(S K) = S dK + S^2 (dK P) K to it.
-  const auto chained = [&](const ArrayXXcd& of_command, double mean_square) {
-    const Eigen::ArrayXd weights = 0.5 / mean_square * spectrum.weights;
-    const ArrayXcd back = (closed * of_command).rowwise().sum();
-    ArrayXXcd gradient = of_command + spectrum.response.colwise() * back;
-    gradient.colwise() *= sensitivity * weights;
-    return gradient;
-  };
-  const ArrayXXcd seen = sensors_with_command(spectrum, closed);
-  const double mean_square = boresight_mean_square(spectrum, closed, seen);
-  result.boresight_rms = {
-      0.5 * std::log(mean_square),
-      chained(spectrum.cross + seen.colwise() * spectrum.by_command.cast<Complex>(), mean_square)};
-  const ArrayXXcd noisy = closed.conjugate().rowwise() * spectrum.noise.transpose().cast<Complex>();
-  const double effort = (spectrum.weights * (closed * noisy).rowwise().sum().real()).sum();
-  result.control_effort = {0.5 * std::log(effort), chained(noisy, effort)};
-  return result;
-}
-
-LoopFigure locked_motor_gain(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {
-  const ArrayXcd inner = inner_return_difference(spectrum.response, controller);
-  const SmoothPeak peak =
-      smooth_peak(controller.col(encoder) * spectrum.response.col(motor_torque) / inner);
-  LoopFigure result{peak.logarithm, ArrayXXcd(controller.rows(), sensors)};
-  // An encoder that is not used at a frequency has no gain there to change.
-  result.gradient.col(encoder) =
-      (peak.fractions > 0.0).select(peak.fractions / controller.col(encoder), 0.0);
-  for (const Index sensor : {tachometer, motor_torque}) {
-    result.gradient.col(sensor) = spectrum.response.col(sensor) * peak.fractions / inner;
-  }
-  return result;
 }
 
 Eigen::ArrayXXd effort_curvature(const SampledSpectrum& spectrum, const ArrayXXcd& controller) {

@@ -6,10 +6,10 @@
 
 namespace boresight::design {
 
-/// What the figures of a loop on one plant need at each frequency. Figures and their gradients with
-/// respect to the controller's response then take a few complex operations a frequency, whatever
-/// the orders of plant and controller. The exact sampled loop, as in SampledSetting. Sensors:
-/// tachometer, encoder, motor torque.
+/// What the figures of a loop on one plant need at each frequency (LoopFigureEvaluator). Figures
+/// and their gradients with respect to the controller's response then take a few complex operations
+/// a frequency, whatever the orders of plant and controller. The exact sampled loop, as in
+/// SampledSetting. Sensors: tachometer, encoder, motor torque.
 struct SampledSpectrum {
   Eigen::ArrayXXcd response;      // frequencies x sensors: of the command
   Eigen::ArrayXXcd sensors;       // x 9, by rows: density of the sensors without the loop
@@ -29,31 +29,6 @@ SampledSpectrum sampled_spectrum(const SampledSetting& setting, const Eigen::Arr
 /// is SampledSetting::controller_response at the spectrum's frequencies.
 Eigen::ArrayXcd sensitivity_function(const SampledSpectrum& spectrum,
                                      const Eigen::ArrayXXcd& controller);
-
-/// ln of a figure and its gradient: d figure = 2 Re sum(gradient * dK) over all elements, K the
-/// controller's response, frequencies x sensors.
-struct LoopFigure {
-  double logarithm = 0.0;
-  Eigen::ArrayXXcd gradient;
-};
-
-/// Of a loop that is stable, which is not tested here.
-struct LoopFigures {
-  LoopFigure boresight_rms;   // rad of motor
-  LoopFigure control_effort;  // rad/s
-  /// Of |S| at the valve command: ln(sum |S|^p)/p over the frequencies where it is next to
-  /// its largest, a smooth upper bound of ln Ms at the frequencies.
-  LoopFigure sensitivity_peak;
-  /// The same of |S| with the loop cut at the encoder alone, tachometer and torque fed back: of the
-  /// position loop.
-  LoopFigure position_peak;
-};
-
-LoopFigures loop_figures(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
-
-/// As sensitivity_peak, of the gain from encoder to motor torque in
-/// SampledSetting::highest_locked_motor_gain.
-LoopFigure locked_motor_gain(const SampledSpectrum& spectrum, const Eigen::ArrayXXcd& controller);
 
 /// Gauss-Newton curvature of the boresight's mean square, a Hermitian matrix H per frequency, by
 /// rows: a small change dK of the controller's response (a column per frequency) adds dK^H H dK,

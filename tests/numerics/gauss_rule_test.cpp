@@ -28,7 +28,7 @@ TEST_P(GaussRules, IntegratePolynomialsUpToTwiceTheirPoints) {
   }
 }
 
-TEST_P(GaussRules, AreSymmetricAndAscendingAndWeighTwo) {
+TEST_P(GaussRules, AreSymmetricAndAscendingWithWeightsThatSumToTwo) {
   const auto rule = numerics::gauss_rule(GetParam());
   const std::size_t n = rule.node.size();
   ASSERT_EQ(n, static_cast<std::size_t>(GetParam()));

@@ -159,17 +159,28 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   EXPECT_EQ(violated.controller.b, found.controller.b);
   EXPECT_EQ(violated.violations, 3);
   EXPECT_GT(evaluated.size(), 1U);
+  const std::vector<double> all = evaluated;  // of the last step, and 2 and 6 steps before it
   // As many as the best step has need not be counted further.
   EXPECT_GT(limits.front(), 1000);
   EXPECT_EQ(limits[1], 3);
-  // Only the last step has some: the one before it is found between, by halving.
+  // Only the last step has some: the one before it would gain less than 1 %.
   const auto before_last = with([&](double rms) { return rms <= found.boresight_rms ? 3 : 0; });
-  EXPECT_EQ(before_last.steps, found.steps - 1);
+  EXPECT_EQ(before_last.steps, found.steps - 2);
   EXPECT_EQ(before_last.violations, 0);
-  EXPECT_EQ(evaluated.size(), 3U);
+  EXPECT_EQ(evaluated.size(), 2U);
+  // Where more can be gained, steps between are evaluated by halving.
+  ASSERT_GT(all.size(), 2U);
+  ASSERT_GT(all[2], 1.01 * all[1]);
+  const auto between = with([&](double rms) { return rms < 0.999 * all[2] ? 3 : 0; });
+  EXPECT_GE(between.steps, found.steps - 6);
+  EXPECT_EQ(between.violations, 0);
+  EXPECT_GT(evaluated.size(), 3U);
   // None is without: the one with the fewest, though it is not the last.
   EXPECT_GE(with([&](double rms) { return rms < bound ? 3 : 1; }).boresight_rms, bound);
   EXPECT_LE(evaluated.size(), 6U);
+  // Only the first step is without.
+  const double at_first = evaluated.back();
+  EXPECT_EQ(with([&](double rms) { return rms < at_first ? 3 : 0; }).boresight_rms, at_first);
 }
 
 // The structure is less damped than the controller's poles may be.

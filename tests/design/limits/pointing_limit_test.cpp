@@ -1,4 +1,5 @@
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include <gmock/gmock.h>
@@ -254,52 +255,56 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
     EXPECT_LE(one.highest_position_peak(response).magnitude, 1.002 * of_position);
   };
   const double friction = problem.plant.drive.viscous_friction;
-  expect_peaks(setting(problem.plant, friction, 1.0), 1.75, 2.0);
-  expect_peaks(setting(members.front().plant, friction, 1.0), 1.75, 2.0);
-  expect_peaks(setting(with_structure_frequencies(0.95), friction, 1.0), 1.75, HUGE_VAL);
+  expect_peaks(setting(problem.plant, friction, 1.0), 1.7, 2.0);
+  expect_peaks(setting(members.front().plant, friction, 1.0), 1.7, 2.0);
+  expect_peaks(setting(with_structure_frequencies(0.95), friction, 1.0), 1.7, HUGE_VAL);
   expect_peaks(setting(problem.plant, 100.0, 1.0), 3.0, 3.0);
   for (const Standstill::Edge& edge : standing.standstill->edges) {
-    expect_peaks(setting(problem.plant, edge.friction, edge.encoder_gain), 2.5, HUGE_VAL);
+    // The search's frequencies are those of the plants, not of the edges: 1 % between them.
+    expect_peaks(setting(problem.plant, edge.friction, edge.encoder_gain), 1.01 * 2.5, HUGE_VAL);
   }
   const PoleBounds poles = bounds_of(controller);
   EXPECT_GT(poles.slowest, 0.245);
   EXPECT_GT(poles.damping, 0.048);
 }
 
-// The gain on a motor that friction holds is limited to less where violations remain.
+// To less where violations remain, and not at all where they still do.
 TEST(PointingLimit, TheRefinedLimitsTheGainOnALockedMotor) {
   const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
   const TrackingProblem problem = problem_with_torque_noise();
   const DescribedController loops{"lags", reference::lag_loops()};
   plant::AntennaPlant plant = problem.plant;
   plant.drive.viscous_friction = 1e7;
-  const SampledSetting held("held", plant, fit_wind_filter(problem), problem.noise, 0.02,
-                            plant::frequency_grid(plant, 1e-3, 24.9, 100));
+  const SampledSetting locked("locked", plant, fit_wind_filter(problem), problem.noise, 0.02,
+                              plant::frequency_grid(plant, 1e-3, 24.9, 100));
   const auto gain = [&](const plant::StateSpace& controller) {
-    return held
+    return locked
         .highest_locked_motor_gain(
-            SampledSetting::controller_response(controller, held.frequency()))
+            SampledSetting::controller_response(controller, locked.frequency()))
         .magnitude;
   };
   const plant::StateSpace start =
-      control::sampled_loop(held.problem().plant, loops.controller, 0.02).controller;
+      control::sampled_loop(locked.problem().plant, loops.controller, 0.02).controller;
   const double stiffness = 0.9 * gain(start) / 5.0;
   Constraints standing;
-  standing.standstill = Standstill{3.0, {100.0}, {{60.0, 2.0}}, stiffness};
-  // Counts one in every controller of the first search.
-  const auto violations = [&](const plant::StateSpace& one, int) {
-    return gain(one) > 1.003 * 4.0 * stiffness ? 1 : 0;
+  standing.standstill = Standstill{3.0, {100.0}, {}, stiffness};
+  // The gain of the result, over the stiffness, where these gains count as a violation.
+  const auto refined = [&](const std::function<bool(double)>& violates) {
+    const auto violations = [&](const plant::StateSpace& one, int) {
+      return violates(gain(one) / stiffness) ? 1 : 0;
+    };
+    const auto limit = pointing_limit(problem, standing, members, {},
+                                      {.threads = 2, .start = loops, .violations = violations});
+    EXPECT_EQ(limit.refined_from, "lags");
+    return limit.refined ? gain(limit.refined->controller) / stiffness : 0.0;
   };
-  const auto limit = pointing_limit(problem, standing, members, {},
-                                    {.threads = 2, .start = loops, .violations = violations});
-  ASSERT_TRUE(limit.refined);
-  EXPECT_EQ(limit.refined_from, "lags");
-  EXPECT_LT(gain(limit.refined->controller), 1.002 * 4.0 * stiffness);
-  // The limit of 5 is kept where nothing is counted.
-  const auto first = pointing_limit(problem, standing, members, {}, {.threads = 2, .start = loops});
-  ASSERT_TRUE(first.refined);
-  EXPECT_LT(gain(first.refined->controller), 1.002 * 5.0 * stiffness);
-  EXPECT_GT(gain(first.refined->controller), 1.01 * 4.0 * stiffness);
+  const double first = refined([](double) { return false; });
+  EXPECT_LT(first, 1.002 * 5.0);
+  EXPECT_GT(first, 1.01 * 4.0);
+  const double second = refined([](double found) { return found > 1.003 * 4.0; });
+  EXPECT_LT(second, 1.002 * 4.0);
+  EXPECT_GT(second, 0.0);
+  EXPECT_GT(refined([](double found) { return found < 1.01 * 5.0; }), 1.01 * 5.0);
 }
 
 // Friction slopes of the constraint, and larger ones up to ten times.
@@ -360,7 +365,7 @@ TEST(SampledSetting, TakesTorqueWithoutStatedNoiseForNextToExact) {
   EXPECT_LT(std::sqrt(variance(0.0)), 1.5e-3 * 13.9);
 }
 
-TEST(PointingLimit, RefusesWhatItCannotJudge) {
+TEST(PointingLimit, RefusesWhatItCannotEvaluate) {
   TrackingProblem problem = problem_with_torque_noise();
   problem.noise.tachometer_rms = 0.0;
   EXPECT_THAT(reference::Call([&] { pointing_limit(problem, {}, {}, {}); }),

@@ -26,8 +26,9 @@ constexpr std::size_t first_stride = 2;
 // Of the rms: between steps that differ by less no further one is evaluated.
 constexpr double to_gain = 0.01;
 constexpr double worthwhile = 1e-4;
-// The search ends after so many steps without that gain since the last one that counted, and where
-// the objective fell by less than `slow` over so many steps.
+// The search ends after so many steps that promise no more than `worthwhile` since the last
+// accepted one, and where the objective of feasible centres fell by less than `slow` over so many
+// steps.
 constexpr int max_idle = 4;
 constexpr std::size_t recent = 12;
 constexpr double slow = 4e-3;

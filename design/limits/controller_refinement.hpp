@@ -20,11 +20,11 @@ struct RefinementOptions {
   /// Number of violations of a requirement that is too expensive to evaluate at every step, such as
   /// limit cycles in simulation. It is evaluated at the last step that meets every constraint, then
   /// 2, 6, 14 and so on steps before it, down to the first, until a step has none. The interval
-  /// from that step to the next evaluated one with violations is then halved, as long as their rms
-  /// differ by more than 1 %. At most 6 evaluations; `enough` is the least count so far, at
-  /// least 1. The result is the last step found without violations, else the one with the fewest,
-  /// the latest of several. Empty, or without an accepted step that meets every constraint: the
-  /// last step.
+  /// from that step to the next evaluated one with violations is then halved, as long as the later
+  /// one's rms is smaller by more than 1 %. At most 6 evaluations; `enough` is the least count so
+  /// far, at least 1. The result is the last step found without violations, else the one with the
+  /// fewest, the latest of several. Empty, or without an accepted step that meets every constraint:
+  /// the last step.
   CountViolations violations = {};
 };
 
@@ -50,10 +50,12 @@ struct RefinementResult {
 /// Each step is a search by sequential quadratic programming within a box about the present
 /// controller (RefinementProblem). A step is accepted if the exact quantities of RobustConstraints
 /// confirm it, and the box then grows. A step with a small violation is repeated with corrected
-/// peaks, at most twice; otherwise the box shrinks. The search ends where four steps since the last
-/// accepted one lower the objective by less than 1e-4, or twelve by less than 4e-3 together. The
-/// result is a local optimum or on the way to one. From a feasible start the objective does not
-/// increase. The problem is not convex: another start may lead to a better result.
+/// peaks, at most twice; otherwise the box shrinks. The search ends after
+/// four steps since the last accepted one that each promise a gain, in objective and penalty of
+/// violations, of at most 1e-4, or where the objective of controllers that meet every constraint
+/// fell by less than 4e-3 over twelve steps, refused ones included. The result is a local optimum
+/// or on the way to one. From a feasible start the objective does not increase. The problem is not
+/// convex: another start may lead to a better result.
 /// @throws InvalidInput as ParallelSections, for fewer than 1 step and a start that is not stable
 /// on all plants; NumericalFailure as ParallelSections.
 RefinementResult refine_controller(const plant::StateSpace& start,

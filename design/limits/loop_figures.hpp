@@ -18,8 +18,8 @@ using SensorPack = std::array<numerics::ComplexPack, 3>;
 /// the last pack filled up with zeros.
 std::vector<SensorPack> packed_response(const Eigen::ArrayXXcd& controller);
 
-/// ln of a mean square's root and its gradient: d logarithm = 2 Re sum(gradient * dK) over all
-/// frequencies and sensors, K the controller's response.
+/// ln of an rms and its gradient: d logarithm = 2 Re sum(gradient * dK) over all frequencies and
+/// sensors, K the controller's response. Zero beyond the last frequency in the last pack.
 struct RmsFigure {
   double logarithm = 0.0;
   std::vector<SensorPack> gradient;
@@ -44,6 +44,7 @@ struct LoopPeaks {
   /// position loop.
   PeakFigure position_peak;
 };
+/// Likewise.
 struct LoopFigures {
   RmsFigure boresight_rms;   // rad of motor
   RmsFigure control_effort;  // rad/s
@@ -51,12 +52,13 @@ struct LoopFigures {
 };
 
 /// The figures of the loop on one plant: about 300 operations a frequency, on as many frequencies
-/// at once as the processor's registers hold. The same bits on every machine.
+/// at once as the processor's registers hold; the same bits for every width (NarrowRegisters).
+/// Where a response is not finite, the figures are not either.
 class LoopFigureEvaluator {
  public:
   explicit LoopFigureEvaluator(const SampledSpectrum& spectrum);
 
-  /// `controller`: packed_response at the spectrum's frequencies.
+  /// `controller`: packed_response at the spectrum's frequencies, which is not tested.
   LoopFigures figures(const std::vector<SensorPack>& controller) const;
   /// The peaks alone, without mean squares and their gradients.
   LoopPeaks peaks(const std::vector<SensorPack>& controller) const;

@@ -57,8 +57,7 @@ constexpr double used_of_peak = 0.70;
 // N m s/rad: with so much friction the motor does not move.
 constexpr double locking_friction = 1e7;
 // Limits of the gain from encoder to motor torque with the motor locked, over
-// Standstill::breakaway_stiffness, of which the first that leaves no limit cycle counts. With 5.5
-// some remained on the 70-m antenna, with 5 on the 34-m.
+// Standstill::breakaway_stiffness, of which the first that leaves no limit cycle counts: empirical.
 constexpr std::array<double, 2> locked_motor_gains{5.0, 4.0};
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.

@@ -33,7 +33,8 @@ constexpr std::size_t plants_a_block = 6;
 constexpr Index figures_a_plant = 2;
 // A unit of the coordinates changes figures by about this fraction of themselves, over all plants.
 constexpr double unit_change = 0.4;
-// Of the largest curvature, scaled: directions with less hardly matter and get no more room.
+// Added to the curvature, which is scaled to 1 for each parameter alone: directions with less
+// hardly matter and get no more room.
 constexpr double min_curvature = 5e-3;
 
 Eigen::ArrayXd refinement_frequencies(const Eigen::ArrayXd& grid) {
@@ -59,9 +60,7 @@ MatrixXd stacked(const Eigen::MatrixXcd& matrix) {
 std::array<MatrixXd, sensors> transposed_derivatives(const ParallelSections::Response& response) {
   std::array<MatrixXd, sensors> result;
   for (std::size_t i = 0; i < result.size(); ++i) {
-    const Eigen::MatrixXcd& derivative = response.by_parameters.at(i);
-    result.at(i).resize(derivative.cols(), 2 * derivative.rows());
-    result.at(i) << derivative.real().transpose(), derivative.imag().transpose();
+    result.at(i) = stacked(response.by_parameters.at(i)).transpose();
   }
   return result;
 }
@@ -189,11 +188,12 @@ VectorXd RefinementProblem::moved(const std::vector<double>& point) const {
   return centre_ + directions_ * Eigen::Map<const VectorXd>(point.data(), directions_.cols());
 }
 
-RefinementProblem::Figures RefinementProblem::figures(const ArrayXXcd& response) const {
+RefinementProblem::Figures RefinementProblem::figures(const ArrayXXcd& response,
+                                                      bool with_rms) const {
   const std::vector<SensorPack> controller = packed_response(response);
   Figures result{std::vector<LoopFigures>(all()), {}};
   numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
-    if (i < rated_) {
+    if (with_rms && i < rated_) {
       result.loops[i] = evaluators_[i].figures(controller);
     } else {
       result.loops[i].peaks = evaluators_[i].peaks(controller);
@@ -283,7 +283,7 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
     values.constraints[row] = value - slack;
     store(values.constraint_gradients, row, gradient, -1.0);
   };
-  const Figures found = figures(response.value);
+  const Figures found = figures(response.value, true);
   const std::vector<LoopFigures>& of = found.loops;
   const VectorXd peak = peaks(found) + corrections_;
   const auto efforts = static_cast<std::size_t>(peak.size());
@@ -368,7 +368,7 @@ RefinementProblem::Step RefinementProblem::step(double radius) const {
   result.gain = at_centre - least;
   result.evaluations = search.evaluations();
   result.controller = sections_.state_space(result.parameters);
-  result.peaks = peaks(figures(sections_.response(result.parameters, frequency_).value));
+  result.peaks = peaks(figures(sections_.response(result.parameters, frequency_).value, false));
   return result;
 }
 

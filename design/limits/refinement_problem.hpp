@@ -65,16 +65,17 @@ class RefinementProblem {
   void choose_directions();
   Eigen::MatrixXd curvature(const ParallelSections::Response& response) const;
   Eigen::VectorXd moved(const std::vector<double>& point) const;
-  // By all parameters, a column a figure. `derivatives`: see transposed_derivatives.
+  // Per sensor, parameters_of(it) x 2 frequencies: first the real parts, then the imaginary ones.
   using Derivatives = std::array<Eigen::MatrixXd, ParallelSections::sensors>;
+  // Gradients by all parameters, a column a figure.
   Eigen::MatrixXd by_parameters(const Derivatives& derivatives,
                                 std::span<const RmsFigure* const> figures) const;
   Eigen::VectorXd by_parameters(const Derivatives& derivatives, const PeakFigure& figure) const;
   struct Figures {
-    std::vector<LoopFigures> loops;  // a plant each; of those not rated only the peaks
+    std::vector<LoopFigures> loops;  // a plant each; the rms only of those rated
     std::vector<PeakFigure> locked;  // the gain on a locked motor
   };
-  Figures figures(const Eigen::ArrayXXcd& response) const;
+  Figures figures(const Eigen::ArrayXXcd& response, bool with_rms) const;
   Eigen::VectorXd peaks(const Figures& figures) const;
   void evaluate(const std::vector<double>& point, ConstrainedValues& values) const;
 

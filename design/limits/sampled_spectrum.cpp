@@ -9,7 +9,6 @@
 namespace boresight::design {
 namespace {
 
-using Complex = std::complex<double>;
 using Eigen::ArrayXcd;
 using Eigen::ArrayXXcd;
 using Eigen::Index;

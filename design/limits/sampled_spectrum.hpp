@@ -7,7 +7,7 @@
 namespace boresight::design {
 
 /// What the figures of a loop on one plant need at each frequency (LoopFigureEvaluator). Figures
-/// and their gradients with respect to the controller's response then take a few complex operations
+/// and their gradients with respect to the controller's response then take some 300 operations
 /// a frequency, whatever the orders of plant and controller. The exact sampled loop, as in
 /// SampledSetting. Sensors: tachometer, encoder, motor torque.
 struct SampledSpectrum {

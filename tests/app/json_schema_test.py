@@ -298,14 +298,14 @@ class Tune(unittest.TestCase):
         self.controllers = {(one["structure"], one["tuned_for"]): one
                             for one in self.found["controllers"]}
 
-    def test_has_every_law(self):
+    def test_has_every_controller(self):
         self.assertEqual(self.found["structures"], ["PI", "PI-0"])
         self.assertEqual(list(self.controllers), [
             ("FULL+N+C", "present"), ("PI with a second lag", "present"), ("PI", "nominal"),
             ("PI", "robust"), ("PI-0", "nominal"), ("PI-0", "robust")])
         self.assertEqual((self.found["not_run"], self.found["shortfalls"]), ([], []))
 
-    def test_claims_only_laws_that_keep_their_goals(self):
+    def test_claims_only_controllers_that_keep_their_goals(self):
         for (_, purpose), controller in self.controllers.items():
             if purpose == "present" or not controller["constraints_met"]:
                 continue

@@ -118,7 +118,7 @@ class MonteCarlo(unittest.TestCase):
         self.folder.run("--plants", "150", name="few")
         self.assertEqual(self.folder.rows("few"), self.folder.rows()[:150])
 
-    def test_a_law_of_a_report_is_held_to_the_last_bit(self):
+    def test_a_controller_of_a_report_is_evaluated_to_the_last_bit(self):
         controller = self.report["controller"]
         names = [gain["name"].replace(" ", "_") for gain in controller["gains"]]
         gains = {f"{name}_x": gain["value"] for name, gain in zip(names, controller["gains"])}
@@ -135,7 +135,7 @@ class MonteCarlo(unittest.TestCase):
         self.assertEqual((self.folder.path / "of_report.csv").read_bytes(),
                          self.folder.files("few_again")[1])
 
-    def test_retuning_says_what_one_law_costs(self):
+    def test_retuning_says_what_one_controller_costs(self):
         done = self.folder.run("--plants", "100", "--retune", name="retuned")
         self.assertEqual(done.returncode, 0, done.stderr)
         report = self.folder.report("retuned")

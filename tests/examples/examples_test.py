@@ -104,7 +104,7 @@ class Examples(unittest.TestCase):
         self.assertLessEqual(max(peaks), 2.0)
         self.assertIn("limited by: sensitivity peak at valve command", text)
 
-    def test_own_controller_is_judged_by_two_independent_ways(self):
+    def test_own_controller_is_evaluated_by_two_independent_ways(self):
         text = run("own_controller")
         rms = figure(text, "boresight rms in 10 m/s")
         # `boresight benchmark cases/dss14-70m/case.toml` of a file with these gains.

@@ -92,7 +92,7 @@ def test_closed_loop_is_plant_and_controller_connected(antenna, plant):
                                at_once.frequency_response(w)[:, row, column], rtol=1e-3)
 
 
-def test_sampled_law_is_the_continuous_one_at_low_frequencies():
+def test_sampled_controller_is_the_continuous_one_at_low_frequencies():
     loops = boresight.controller("PI", {"kr": 0.2, "wi": 0.5, "wp": 6.0, "kp": 6.0, "wip": 0.1})
     sampled = loops.sampled_controller(0.02)
     assert sampled.sample_time == 0.02

@@ -73,7 +73,7 @@ def test_tuning_says_what_the_program_says(tuning, program):
     assert nominal.boresight_rms == pytest.approx(math.hypot(nominal.wind_rms, nominal.noise_rms))
 
 
-def test_best_law_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
+def test_best_controller_meets_its_goals_and_closes_a_stable_loop(antenna, tuning):
     best = tuning.best
     assert best.gains == best.controller.gains and set(best.gains) == {"kr", "wi", "wp", "kp", "wip"}
     assert best.tuned_for == "robust" and best.constraints_met and best.verified and best.stable

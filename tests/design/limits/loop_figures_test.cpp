@@ -1,5 +1,6 @@
 #include <cmath>
 #include <complex>
+#include <limits>
 
 #include <gtest/gtest.h>
 
@@ -48,15 +49,16 @@ TEST(LoopFigures, GradientsAreThoseOfTheFigures) {
   };
   expect_slope(found.boresight_rms, above.boresight_rms, below.boresight_rms);
   expect_slope(found.control_effort, above.control_effort, below.control_effort);
-  expect_slope(found.peaks.sensitivity_peak, above.peaks.sensitivity_peak, below.peaks.sensitivity_peak);
+  expect_slope(found.peaks.sensitivity_peak, above.peaks.sensitivity_peak,
+               below.peaks.sensitivity_peak);
   expect_slope(found.peaks.position_peak, above.peaks.position_peak, below.peaks.position_peak);
   expect_slope(locked(0.0), locked(step), locked(-step));
-  // From above, by less than 1 %: a sum of powers over all frequencies.
+  // To 1 %: a sum of powers over the frequencies next to the peak.
   const auto exact = [&](const SampledPeak& peak) { return std::log(peak.magnitude); };
   const SampledPeak position = loop.setting.highest_position_peak(loop.response);
   EXPECT_NEAR(found.peaks.position_peak.logarithm, exact(position), 0.01);
-  EXPECT_NEAR(found.peaks.sensitivity_peak.logarithm, exact(loop.setting.highest_peak(loop.response)),
-              0.01);
+  EXPECT_NEAR(found.peaks.sensitivity_peak.logarithm,
+              exact(loop.setting.highest_peak(loop.response)), 0.01);
   EXPECT_NEAR(locked(0.0).logarithm, exact(loop.setting.highest_locked_motor_gain(loop.response)),
               0.01);
 }
@@ -73,8 +75,8 @@ TEST(LoopFigures, LockedMotorGainIsOfTheEncoderAlone) {
   of_encoder.col(1) = loop.response.col(1);
   EXPECT_NEAR(slope_along(found, of_encoder), 1.0, 1e-9);
   loop.response.col(1) *= 3.0;
-  EXPECT_NEAR(loop.locked_motor_gain(loop.response).logarithm,
-              found.logarithm + std::log(3.0), 1e-12);
+  EXPECT_NEAR(loop.locked_motor_gain(loop.response).logarithm, found.logarithm + std::log(3.0),
+              1e-12);
 }
 
 // The last pack is filled up with frequencies that count nowhere.
@@ -104,6 +106,33 @@ TEST(LoopFigures, DoNotDependOnHowManyFrequenciesFillTheLastPack) {
     EXPECT_EQ(found.peaks.sensitivity_peak.logarithm, all.peaks.sensitivity_peak.logarithm);
     EXPECT_EQ(found.peaks.position_peak.logarithm, all.peaks.position_peak.logarithm);
   }
+}
+
+// Where the last pack is filled up, |S| would be 1.
+TEST(LoopFigures, PeaksAreOfTheFrequenciesAlone) {
+  const Loop loop;
+  SampledSpectrum spectrum = loop.spectrum;
+  const Eigen::Index count = 8 * (loop.response.rows() / 8) - 3;
+  spectrum.response = Eigen::ArrayXXcd::Constant(count, 3, -1.0);
+  spectrum.sensors.conservativeResize(count, Eigen::NoChange);
+  spectrum.cross.conservativeResize(count, Eigen::NoChange);
+  spectrum.boresight.conservativeResize(count);
+  spectrum.by_command.conservativeResize(count);
+  spectrum.weights.conservativeResize(count);
+  const auto ones = packed_response(Eigen::ArrayXXcd::Ones(count, 3));
+  const LoopPeaks found = LoopFigureEvaluator(spectrum).peaks(ones);
+  const double plateau = std::log(static_cast<double>(count)) / 400.0;
+  EXPECT_NEAR(found.sensitivity_peak.logarithm, std::log(0.25) + plateau, 1e-12);
+  EXPECT_NEAR(found.position_peak.logarithm, std::log(0.75) + plateau, 1e-12);
+}
+
+TEST(LoopFigures, AreNotFiniteWhereAResponseIsNot) {
+  const Loop loop;
+  SampledSpectrum spectrum = loop.spectrum;
+  spectrum.response(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  const LoopFigures found = LoopFigureEvaluator(spectrum).figures(packed_response(loop.response));
+  EXPECT_TRUE(std::isnan(found.peaks.sensitivity_peak.logarithm));
+  EXPECT_TRUE(std::isnan(found.boresight_rms.logarithm));
 }
 
 TEST(LoopFigures, AreTheSameForEveryWidthOfTheRegisters) {

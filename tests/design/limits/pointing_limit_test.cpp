@@ -260,7 +260,7 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
   expect_peaks(setting(with_structure_frequencies(0.95), friction, 1.0), 1.7, HUGE_VAL);
   expect_peaks(setting(problem.plant, 100.0, 1.0), 3.0, 3.0);
   for (const Standstill::Edge& edge : standing.standstill->edges) {
-    // The search's frequencies are those of the plants, not of the edges: 1 % between them.
+    // The grid has the plants' modes, not the peaks that an edge's gain moves: it misses up to 1 %.
     expect_peaks(setting(problem.plant, edge.friction, edge.encoder_gain), 1.01 * 2.5, HUGE_VAL);
   }
   const PoleBounds poles = bounds_of(controller);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <complex>
 
 #include "design/reference_problem.hpp"
 #include <boresight/design/limits/loop_figures.hpp>
@@ -20,8 +21,8 @@ struct Loop {
   design::SampledSetting setting = [this] {
     design::TrackingProblem problem = tracking_problem();
     problem.noise.torque_rms = 0.5;
-    return design::SampledSetting("own", problem.plant, design::fit_wind_filter(problem), problem.noise, 0.02,
-                          frequency);
+    return design::SampledSetting("own", problem.plant, design::fit_wind_filter(problem),
+                                  problem.noise, 0.02, frequency);
   }();
   plant::StateSpace controller = design::weighted_lqg(
       setting, {.command_weight = 0.01, .spring_weight = 1.0, .friction_torque = 20.0});
@@ -32,7 +33,8 @@ struct Loop {
     return design::LoopFigureEvaluator(spectrum).figures(design::packed_response(changed));
   }
   design::PeakFigure locked_motor_gain(const Eigen::ArrayXXcd& changed) const {
-    return design::LoopFigureEvaluator(spectrum).locked_motor_gain(design::packed_response(changed));
+    return design::LoopFigureEvaluator(spectrum).locked_motor_gain(
+        design::packed_response(changed));
   }
 };
 

@@ -31,7 +31,7 @@ TEST(InertiaAgainstTheDish, FindsAnotherUnitAndARadius) {
   EXPECT_GT(small[0].numbers.at(0).value, small[0].numbers[0].upper);
 }
 
-TEST(Flywheel, MustNotBurstNorOutweighTheAntenna) {
+TEST(Flywheel, MustNotBurstNorExceedTheInertiaOfTheAntenna) {
   EXPECT_THAT(failed(EditedCase(), "flywheel_inertia"), IsEmpty());
   // 125 rad/s of the motors: 12.5 m/s at the rim, or 250 m/s.
   EditedCase usual("dss14-64m"), burst("dss14-64m");

@@ -50,12 +50,12 @@ struct RefinementResult {
 /// Each step is a search by sequential quadratic programming within a box about the present
 /// controller (RefinementProblem). A step is accepted if the exact quantities of RobustConstraints
 /// confirm it, and the box then grows. A step with a small violation is repeated with corrected
-/// peaks, at most twice; otherwise the box shrinks. The search ends after
-/// four steps since the last accepted one that each promise a gain, in objective and penalty of
-/// violations, of at most 1e-4, or where the objective of controllers that meet every constraint
-/// fell by less than 4e-3 over twelve steps, refused ones included. The result is a local optimum
-/// or on the way to one. From a feasible start the objective does not increase. The problem is not
-/// convex: another start may lead to a better result.
+/// peaks, at most twice; otherwise the box shrinks. The search ends after four steps since the last
+/// accepted one that each promise a gain, in objective and penalty of violations, of at most 1e-4,
+/// or where the objective of controllers that meet every constraint fell by less than 4e-3 over
+/// twelve steps, refused ones included. The result is a local optimum or on the way to one. From a
+/// feasible start the objective does not increase. The problem is not convex: another start may
+/// lead to a better result.
 /// @throws InvalidInput as ParallelSections, for fewer than 1 step and a start that is not stable
 /// on all plants; NumericalFailure as ParallelSections.
 RefinementResult refine_controller(const plant::StateSpace& start,

@@ -21,13 +21,18 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
+// The controller's poles, of a damping ratio of 0.05 or more, make peaks between the plants' modes:
+// a parabola through such points misses less than 0.1 % of them.
+constexpr int points_per_decade = 100;
+
 // Frequencies that show the peaks of every plant: each one's own grid, put together.
 Eigen::ArrayXd peak_frequencies(const TrackingProblem& problem,
                                 const std::vector<EnsembleMember>& members, double sample_time) {
   const double nyquist = 0.5 / sample_time;
   std::vector<double> all;
   const auto add = [&](const plant::AntennaPlant& plant) {
-    const Eigen::ArrayXd grid = plant::frequency_grid(plant, 1e-3, 0.9999 * nyquist, 60);
+    const Eigen::ArrayXd grid =
+        plant::frequency_grid(plant, 1e-3, 0.9999 * nyquist, points_per_decade);
     all.insert(all.end(), grid.begin(), grid.end());
   };
   add(problem.plant);
@@ -109,16 +114,16 @@ class Study {
         ratio_(problem.gear_ratio),
         goals_{goals.sensitivity_peak[1], goals.control_effort},
         filter_(fit_wind_filter(problem)) {
-    std::vector<EnsembleMember> held;
+    std::vector<EnsembleMember> standing;
     if (goals.standstill) {
       goals_.standstill_peak = goals.standstill->sensitivity_peak;
       for (const double friction : standstill_slopes(*goals.standstill)) {
-        held.push_back({fmt::format("friction {:.3g} N.m.s/rad", friction), problem.plant});
-        held.back().plant.drive.viscous_friction = friction;
+        standing.push_back({fmt::format("friction {:.3g} N.m.s/rad", friction), problem.plant});
+        standing.back().plant.drive.viscous_friction = friction;
       }
     }
     std::vector<EnsembleMember> all = members;
-    all.insert(all.end(), held.begin(), held.end());
+    all.insert(all.end(), standing.begin(), standing.end());
     all.insert(all.end(), options.corners.begin(), options.corners.end());
     std::vector<EnsembleMember> at_edges;
     if (goals.standstill) {
@@ -137,7 +142,7 @@ class Study {
     add(settings_, "nominal", problem.plant);
     for (const EnsembleMember& member : members) add(settings_, member.name, member.plant);
     for (const EnsembleMember& corner : options.corners) add(corners_, corner.name, corner.plant);
-    for (const EnsembleMember& member : held) add(at_standstill_, member.name, member.plant);
+    for (const EnsembleMember& member : standing) add(at_standstill_, member.name, member.plant);
     refined_goals_ = goals_;
     refined_goals_.sensitivity_peak = 1.0 + used_of_peak * (goals_.sensitivity_peak - 1.0);
     refined_goals_.position_peak = goals.sensitivity_peak[2];

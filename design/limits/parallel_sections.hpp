@@ -76,17 +76,11 @@ class ParallelSections {
 /// numerics::eigen_decomposition.
 PoleBounds bounds_of(const plant::StateSpace& controller);
 
-/// A sampled controller, as a function of the three sensors alone, with poles of another one added
-/// that do nothing yet, for a refinement to use: with zero numerators. Poles beyond the bounds are
-/// moved within them, slow ones each a little faster than the last, so that none are repeated.
+/// A sampled controller, as a function of the three sensors alone, with pairs of poles added that
+/// do nothing yet, for a refinement to use: of these frequencies (rad/s, above 0; their magnitude
+/// in delta) and this damping ratio (PoleBounds::damping, above 0), with zero numerators. Pairs
+/// that are too fast for that damping at the controller's sample time are left out.
 /// @throws InvalidInput without the output valve_command.
-plant::StateSpace with_idle_poles(const plant::StateSpace& controller,
-                                  const plant::StateSpace& other, const PoleBounds& bounds);
-
-/// The same with pairs of poles of these frequencies (rad/s, above 0; their magnitude in delta) and
-/// this damping ratio (PoleBounds::damping, above 0). Pairs that are too fast for that damping at
-/// the controller's sample time are left out. @throws InvalidInput without the output
-/// valve_command.
 plant::StateSpace with_idle_pairs(const plant::StateSpace& controller,
                                   std::span<const double> frequencies, double damping);
 

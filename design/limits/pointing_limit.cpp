@@ -68,9 +68,9 @@ constexpr std::array<double, 2> locked_motor_gains{5.0, 4.0};
 // slew; a less damped one would fit a resonance of one plant.
 constexpr PoleBounds pole_bounds{.slowest = 0.25, .damping = 0.05};
 constexpr int steps_from_loops = 90;
-// Pairs of poles that a refined controller has beside those of its start and of the LQG: as
-// multiples of the hydraulic mode's frequency, about which its loop crosses over.
-constexpr std::array<double, 3> further_frequencies{0.55, 1.5, 3.75};
+// Pairs of poles that a refined controller has beside those of its start, an octave apart about the
+// hydraulic mode, where its loop crosses over: multiples of that mode's frequency.
+constexpr std::array<double, 5> further_frequencies{0.3, 0.6, 1.2, 2.4, 4.8};
 constexpr double damping_of_further_pairs = 0.5;
 
 std::vector<double> further_pairs(const plant::AntennaPlant& plant) {
@@ -203,14 +203,15 @@ class Study {
     if (settings_.size() == 1) return std::nullopt;
     return limited(search_robust_lqg(nominal(), constraints()));
   }
-  void refine(const LimitedLqg& robust, PointingLimit& limit) const {
+  // Of limit.robustified where nothing else is given to start from.
+  void refine(PointingLimit& limit) const {
+    if (settings_.size() == 1) return;
     try {
-      const plant::StateSpace& lqg = robust.design.controller;
       std::optional<RefinementResult> found;
       if (start_) {
         const auto start =
-            with_idle_pairs(with_idle_poles(sampled(start_->controller), lqg, pole_bounds),
-                            further_pairs(nominal().plant()), damping_of_further_pairs);
+            with_idle_pairs(sampled(start_->controller), further_pairs(nominal().plant()),
+                            damping_of_further_pairs);
         RefinementOptions options;
         options.steps = steps_from_loops;
         options.poles = pole_bounds;
@@ -228,11 +229,11 @@ class Study {
           if (found && found->feasible) break;
         }
       }
-      if (!found) {
-        found = refine_controller(lqg, constraints());
+      if (!found && limit.robustified) {
+        found = refine_controller(limit.robustified->design.controller, constraints());
         limit.refined_from = "robust LQG";
       }
-      if (found->feasible) limit.refined = evaluate(std::move(found->controller));
+      if (found && found->feasible) limit.refined = evaluate(std::move(found->controller));
     } catch (const NumericalFailure&) {
       limit.refined.reset();  // of poles that do not part
     }
@@ -457,7 +458,7 @@ PointingLimit pointing_limit(const TrackingProblem& problem, const Constraints& 
   study.bound(limit);
   limit.margin_limited = study.margin_limited();
   limit.robustified = study.robustified();
-  if (limit.robustified) study.refine(*limit.robustified, limit);
+  study.refine(limit);
   limit.full_information_rms = study.full_information_rms();
   limit.flexure_rms = flexure_rms(problem);
   for (const DescribedController& named : controllers)

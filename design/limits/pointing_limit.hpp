@@ -86,8 +86,8 @@ struct PointingLimit {
   /// largest), of reduced order. None without members.
   std::optional<LimitedLqg> robustified;
   /// A controller refined by gradient (refine_controller). It starts from
-  /// PointingLimitOptions::start with the poles of the robustified LQG added, and up to three more
-  /// pairs about the hydraulic mode. Its constraints: Ms at the valve on members and corners, with
+  /// PointingLimitOptions::start with up to five pairs of poles about the hydraulic mode added. Its
+  /// constraints: Ms at the valve on members and corners, with
   /// a reserve for other plants; Ms of the position loop, cut at the encoder; the effort; stability
   /// and both peaks at the friction slopes of Constraints::standstill; |S| at its edges of the
   /// encoder; the gain from encoder to motor torque with the motor locked, 5 times
@@ -96,8 +96,9 @@ struct PointingLimit {
   /// edges are left out, then the limit of that gain too. If no step meets them then either, the
   /// same is tried without corners. Of the steps evaluated it has the fewest
   /// PointingLimitOptions::violations. If no start is given, or it has integrals or is unstable
-  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without that
-  /// LQG, where poles are repeated, and where no step meets every constraint.
+  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without
+  /// members, with neither start, where poles are repeated, and where no step meets every
+  /// constraint.
   std::optional<SampledDesign> refined;
   /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
   std::string refined_from;

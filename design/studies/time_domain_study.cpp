@@ -101,9 +101,9 @@ std::vector<LimitCyclesWithFriction> with_other_friction(
   return limit_cycles_by_friction(loop, friction_variations(loop.antenna.friction), options);
 }
 
-// Of a limit cycle with the stated friction in limit_cycle_violations: above the number of runs
-// with other friction, 4 variations x 2 rates x 3 starts.
-constexpr int weight_of_stated_friction = 30;
+// Violations that limit cycles with the stated friction count as: above the number of runs with
+// other friction, 4 variations x 2 rates x 3 starts.
+constexpr int violations_of_stated_friction = 30;
 
 // Controllers are first compared in few records of wind. Those that are tied with the best, or
 // within a tenth of it, are then run in all records.
@@ -298,12 +298,13 @@ int limit_cycle_violations(const Mission& mission, const TrackingProblem& proble
     return std::transform_reduce(runs.begin(), runs.end(), 0, std::plus(),
                                  [](const auto& one) { return one.limit_cycles; });
   };
-  int violations = weight_of_stated_friction * count({"as stated", loop.antenna.friction});
-  if (violations == 0) {
-    for (const FrictionVariation& friction : friction_variations(loop.antenna.friction)) {
-      if (violations >= enough) break;
-      violations += count(friction);
-    }
+  if (count({"as stated", loop.antenna.friction}) > 0) {
+    return std::min(violations_of_stated_friction, enough);
+  }
+  int violations = 0;
+  for (const FrictionVariation& friction : friction_variations(loop.antenna.friction)) {
+    if (violations >= enough) break;
+    violations += count(friction);
   }
   return std::min(violations, enough);
 }

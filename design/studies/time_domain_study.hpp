@@ -157,10 +157,10 @@ std::optional<SimulatedCandidate> compare_in_time_domain(
     const control::Controller& controller, const NonlinearVerificationOptions& options);
 
 /// Number of runs of limit_cycles_by_friction that end in a limit cycle or do not complete, with
-/// the stated friction, each of which counts 30 times, and, where there is none, with
-/// friction_variations; at most `enough`. The frictions run one after the other until there are
-/// enough. The problem is one of the mission, which must have Antenna::nonlinear. The result does
-/// not depend on the number of threads. @throws as run_loop.
+/// friction_variations; 30 if one with the stated friction does, however many do; at most `enough`.
+/// The frictions run one after the other until there are enough. The problem is one of the mission,
+/// which must have Antenna::nonlinear. The result does not depend on the number of threads.
+/// @throws as run_loop.
 int limit_cycle_violations(const Mission& mission, const TrackingProblem& problem,
                            const plant::StateSpace& controller, int enough, unsigned threads);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -93,17 +94,17 @@ TEST(ControllerRefinement, LowersTheWorstRmsWithinTheConstraints) {
               ThrowsMessage<InvalidInput>(HasSubstr("expected a start that is stable")));
 }
 
-// Loops on the problem's own plant with the poles of an LQG added, for the search to use.
-struct LoopsWithIdlePoles {
+// Loops on the problem's own plant with pairs of poles added, for the search to use.
+struct LoopsWithIdlePairs {
   TrackingProblem problem = problem_with_torque_noise();
   std::vector<SampledSetting> plants{setting_of(problem, problem.plant)};
   plant::StateSpace start;
 
-  explicit LoopsWithIdlePoles(const PoleBounds& poles) {
+  LoopsWithIdlePairs() {
     const plant::StateSpace loops =
         control::sampled_loop(plants.front().problem().plant, reference::lag_loops(), 0.02)
             .controller;
-    start = with_idle_poles(loops, search_limited_lqg(plants.front(), {}).controller, poles);
+    start = with_idle_pairs(loops, std::array{1.5, 3.0, 6.0, 12.0, 24.0}, 0.5);
   }
 
   double rms(const plant::StateSpace& controller) const {
@@ -114,7 +115,7 @@ struct LoopsWithIdlePoles {
 // The loops have more effort than allowed.
 TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem) {
   const PoleBounds poles{.slowest = 0.3};
-  const LoopsWithIdlePoles loops(poles);
+  const LoopsWithIdlePairs loops;
   const double effort = loops.plants.front().control_effort(loops.start);
   const RobustConstraints constraints({loops.plants}, {2.5, 0.9 * effort}, 1);
   ASSERT_GT(constraints.excess(loops.start), 0.05);
@@ -186,7 +187,7 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
 // The structure is less damped than the controller's poles may be.
 TEST(ControllerRefinement, LimitsThePositionLoopAndTheDampingOfTheController) {
   const PoleBounds poles{.slowest = 0.1, .damping = 0.1};
-  const LoopsWithIdlePoles loops(poles);
+  const LoopsWithIdlePairs loops;
   const auto position_peak = [&](const plant::StateSpace& controller) {
     const SampledSetting& plant = loops.plants.front();
     return plant

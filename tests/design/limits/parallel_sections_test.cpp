@@ -169,46 +169,6 @@ TEST(ParallelSections, ConditionsAreNegativeWhereEveryPairIsDampedEnough) {
   EXPECT_LT(worst(0.95 * damping), 0.0);
   EXPECT_GT(worst(1.05 * damping), 0.0);
   expect_gradients_of_conditions(ParallelSections(controller(), {.damping = 1.05 * damping}));
-  // An idle pair beyond the bound comes a little within it, at the same size.
-  const auto found = with_idle_poles(controller(), controller(), {.damping = 1.2 * damping});
-
-  const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.a).values;
-  const auto moved = std::ranges::find_if(poles, [&](const std::complex<double>& pole) {
-    return pole.imag() > 0.0 && std::abs(pole - std::polar(0.9, 0.4)) > 1e-6;
-  });
-  ASSERT_NE(moved, poles.end());
-  EXPECT_NEAR(std::abs(*moved - 1.0), size, 1e-9);
-  EXPECT_NEAR((1.0 - moved->real()) / size - 0.5 * size, 1.01 * 1.2 * damping, 1e-9);
-}
-
-// Next to -1 no pair of that size has much damping: it becomes smaller, and stays a stable pair.
-TEST(ParallelSections, IdlePairsNextToTheNyquistFrequencyStayStable) {
-  plant::StateSpace other = controller();
-  other.a = Eigen::MatrixXd::Zero(5, 5);
-  other.a.topLeftCorner(2, 2) << -0.98, 0.05, -0.05, -0.98;
-  other.a(2, 2) = -0.97;
-  const auto found = with_idle_poles(controller(), other, {.damping = 0.1});
-  EXPECT_EQ(found.a.rows(), 10);
-  const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.a).values;
-  EXPECT_LT(poles.cwiseAbs().maxCoeff(), 1.0);
-  EXPECT_TRUE(std::ranges::any_of(poles, [](const std::complex<double>& pole) {
-    return pole.real() < -0.5 && pole.imag() > 0.0;
-  }));
-}
-
-TEST(ParallelSections, IdlePolesChangeNothingAndAreFastEnough) {
-  plant::StateSpace own = controller();
-  own.a *= 0.7;
-  const plant::StateSpace found = with_idle_poles(own, controller(), {.slowest = 0.2});
-  EXPECT_EQ(found.a.rows(), 10);
-  const auto expected = SampledSetting::controller_response(own, frequency());
-  const auto response = SampledSetting::controller_response(found, frequency());
-  EXPECT_LT((response - expected).abs().maxCoeff(), 1e-12 * expected.abs().maxCoeff());
-  const Eigen::VectorXcd poles = numerics::eigen_decomposition(found.a).values;
-  // The pole at 0.99997, which is slower than 0.2 rad/s.
-  EXPECT_NEAR(poles.real().maxCoeff(), 1.0 - 1.1 * 0.2 * 0.02, 1e-9);
-  const ParallelSections sections(found, {.slowest = 0.2});
-  EXPECT_LT(sections.stability(sections.parameters()).conditions.maxCoeff(), 0.0);
 }
 
 // Those that are too fast for their damping are left out: 2 (0.999 - 0.5)/0.02 s = 49.9 rad/s.

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -258,6 +260,22 @@ plant::StateSpace with_rate_command(const plant::StateSpace& controller) {
   system.d(1, encoder) = -1.0;
   system.d(1, inputs) = 1.0;
   return system;
+}
+
+double nyquist_frequency(const Controller& controller) {
+  const plant::StateSpace* system = controller.structure.state_space();
+  return system != nullptr ? std::numbers::pi / system->sample_time
+                           : std::numeric_limits<double>::infinity();
+}
+
+double sample_density(const Controller& controller, double angular_frequency) {
+  const plant::StateSpace* system = controller.structure.state_space();
+  if (system == nullptr) return 1.0;
+  // At the frequency itself, to rounding, as where an integral over all samples ends.
+  constexpr double rounding = 1e-12;
+  if (angular_frequency > (1.0 + rounding) * nyquist_frequency(controller)) return 0.0;
+  const double hold = hold_amplitude(angular_frequency, system->sample_time);
+  return 1.0 / (hold * hold);
 }
 
 plant::StateSpace to_state_space(const Controller& controller) {

@@ -45,6 +45,14 @@ struct CompensatorResponse {
 /// torque and R P that to the encoder, each times -1; C is 0.
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
 
+/// The Nyquist frequency of a state space (rad/s), from which on its loop's response repeats what
+/// is below; infinite for loops, which are continuous.
+double nyquist_frequency(const Controller& controller);
+
+/// Density of the samples of a state space's command over that of the held command, of which
+/// compensator_response is: 1/hold_amplitude^2 up to the Nyquist frequency, 0 beyond. 1 for loops.
+double sample_density(const Controller& controller, double angular_frequency);
+
 /// State space of the controller. Inputs: tachometer (rad/s), encoder (rad), motor_torque (N m;
 /// only if the pressure or compliance path feeds it back), rate_disturbance (rad/s, added to the
 /// rate command). Outputs: valve_demand (rad/s, before the dead time), rate_command. For a state

@@ -73,7 +73,8 @@ class LoopStructure {
   /// motor_torque; output valve_demand (the complete demand, before the dead time). It has one
   /// loop, through all its sensors: no rate loop of its own and no rate command. In the analysis of
   /// continuous loops its response is that at z = e^(jwT) with the hold's amplitude
-  /// (SensorResponse); the dead time is that of its computation and hold, 1.5 T.
+  /// (SensorResponse); the dead time is that of its computation and hold, 1.5 T. Peaks and margins
+  /// are those below its Nyquist frequency, and its control effort is that of the samples.
   /// @throws InvalidInput for a continuous system or other ports, and as plant::validate.
   static LoopStructure of_state_space(std::string name, const plant::StateSpace& controller);
 

@@ -8,6 +8,11 @@ namespace boresight::control {
 
 using Complex = std::complex<double>;
 
+double hold_amplitude(double frequency, double sample_time) {
+  const double half = 0.5 * frequency * sample_time;
+  return half < 1e-8 ? 1.0 : std::sin(half) / half;
+}
+
 SensorResponse::SensorResponse(const plant::StateSpace& controller)
     : sample_time_(controller.sample_time) {
   const Eigen::Index states = controller.a.rows();
@@ -30,7 +35,7 @@ std::array<Complex, 3> SensorResponse::at(double frequency) const {
   const double half = 0.5 * frequency * sample_time_;
   const double sine = std::sin(half);
   const Complex z_less_one{-2.0 * sine * sine, std::sin(2.0 * half)};
-  const double hold = half < 1e-8 ? 1.0 : sine / half;
+  const double hold = hold_amplitude(frequency, sample_time_);
   // y (z - 1 - T) = C U, from the first state on: y times the inputs is the response.
   const Eigen::Index states = schur_.rows();
   Eigen::RowVectorXcd y = output_;

@@ -12,11 +12,14 @@ namespace boresight::control {
 /// The sensors that a controller reads, in this order wherever they are listed.
 inline constexpr std::array sensor_names{"tachometer", "encoder", "motor_torque"};
 
+/// Amplitude of a zero-order hold, sin(wT/2)/(wT/2). `frequency`: w, rad/s, 0 or more.
+double hold_amplitude(double frequency, double sample_time);
+
 /// The frequency response of a sampled controller from each sensor to the valve demand as the plant
-/// receives it: C (z I - A)^-1 B + D at z = e^(jwT), times the amplitude of the hold,
-/// sin(wT/2)/(wT/2). The hold's delay of T/2 and the computation's of T are not included; they are
-/// the dead time of the loop. From the Schur form of A, one substitution of O(states^2) per
-/// frequency. Constant after construction, so that threads can share it.
+/// receives it: C (z I - A)^-1 B + D at z = e^(jwT), times hold_amplitude. The hold's delay of T/2
+/// and the computation's of T are not included; they are the dead time of the loop. From the Schur
+/// form of A, one substitution of O(states^2) per frequency. Constant after construction, so that
+/// threads can share it.
 class SensorResponse {
  public:
   /// `controller`: sampled, inputs among sensor_names, first output valve_demand.

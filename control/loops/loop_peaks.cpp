@@ -261,11 +261,14 @@ void LoopEvaluator::State::find_peaks(const Controller& controller, LoopBreak lo
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const std::size_t last = points();
   double before = infinity, here = infinity;
+  const double nyquist = nyquist_frequency(controller);
   for (std::size_t i = 0; i < last; i += numerics::pack_size) {
-    const numerics::RealPack& square =
-        values_[leaves_[i / numerics::pack_size]].sensitivity_square[b];
+    const std::uint32_t leaf = leaves_[i / numerics::pack_size];
+    const numerics::RealPack& square = values_[leaf].sensitivity_square[b];
     const std::size_t lanes = std::min(numerics::pack_size, last - i);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
+      // What is beyond is an image of what is below.
+      if (!(packs_[leaf].frequency[lane] < nyquist)) break;
       const double after = square[lane];
       if (here > 1.0 && here >= before && here > after && here < infinity) {
         consider({i + lane - 1, here});

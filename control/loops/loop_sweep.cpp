@@ -251,6 +251,13 @@ struct LoopEvaluator::State::ValueSweep {
                               loop.inverse_square;
       effort = part<width>(grid.noise_weight, k) * demand;
       noise = numerics::square(part<width>(grid.boresight_command, k)) * effort;
+      if (sweep.state_space) {
+        RealPart samples{};
+        for (std::size_t lane = 0; lane < width; ++lane) {
+          samples.set(lane, sample_density(*sweep.controller, grid.frequency[k * width + lane]));
+        }
+        effort = effort * samples;
+      }
     }
     set_part(values.noise, k, noise);
     set_part(values.effort, k, effort);

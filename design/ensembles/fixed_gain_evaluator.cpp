@@ -92,7 +92,10 @@ struct FixedGainEvaluator::State {
   }
 
   double highest_peak(const plant::AntennaPlant& plant, std::size_t loop_break) const {
-    const std::size_t points = panels.points();
+    std::size_t points = panels.points();
+    // Beyond the Nyquist frequency there are images of what is below.
+    const double nyquist = control::nyquist_frequency(controller);
+    while (points > 0 && !(panels.frequency(points - 1) < nyquist)) --points;
     const auto square = [&](std::size_t i) { return panels.sensitivity_square(loop_break, i); };
     double highest = 1.0;
     for (std::size_t i = 0; i < points; ++i) highest = std::max(highest, square(i));

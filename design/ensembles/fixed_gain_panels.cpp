@@ -115,7 +115,8 @@ void FixedGainPanels::add_panel(double from, double to) {
         noise_.encoder_rms * noise_.encoder_rms * std::norm(position) +
         noise_.torque_rms * noise_.torque_rms *
             std::norm(controller.pressure - position * controller.compliance);
-    panel.effort.set(lane, weight * per_band * demand);
+    panel.noise.set(lane, weight * per_band * demand);
+    panel.effort.set(lane, weight * per_band * demand * control::sample_density(controller_, w));
     panel.noisy = panel.noisy || demand > 0.0;
   }
   panels_.push_back(panel);
@@ -232,11 +233,11 @@ struct FixedGainPanels::Evaluation {
                                  position * (encoder_wind - bending * torque_wind)) *
                                both_inverse;
     const RealPart boresight_square = numerics::square(boresight_wind + boresight_command * demand);
-    const RealPart effort = part<width>(panel.effort, k) * inverse_square;
     const RealPart wind_weight = part<width>(panel.wind, k);
     set_part(values.wind, k, wind_weight * boresight_square);
-    set_part(values.effort, k, effort);
-    set_part(values.noise, k, effort * numerics::square(boresight_command));
+    set_part(values.effort, k, part<width>(panel.effort, k) * inverse_square);
+    set_part(values.noise, k,
+             part<width>(panel.noise, k) * inverse_square * numerics::square(boresight_command));
     if (held.climate_)
       set_part(values.climate, k, part<width>(panel.climate, k) * boresight_square);
     if (held.gusts_) {

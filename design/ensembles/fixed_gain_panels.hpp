@@ -39,8 +39,10 @@ class FixedGainPanels {
   struct Panel {
     bool weighted = false, noisy = false;
     numerics::RealPack frequency;
-    numerics::RealPack wind, climate;         // (N m)^2 per point
-    numerics::RealPack effort;                // (rad/s)^2 per point: noise-driven demand, open loop
+    numerics::RealPack wind, climate;  // (N m)^2 per point
+    // (rad/s)^2 per point: noise-driven demand, open loop; the command's, and what the antenna
+    // receives of it (control::sample_density).
+    numerics::RealPack effort, noise;
     numerics::ComplexPack rate, pressure;     // times the dead time
     numerics::ComplexPack position, bending;  // R P, with the dead time; C
   };

@@ -87,10 +87,10 @@ struct PointingLimit {
   std::optional<LimitedLqg> robustified;
   /// A controller refined by gradient (refine_controller). It starts from
   /// PointingLimitOptions::start with up to five pairs of poles about the hydraulic mode added. Its
-  /// constraints: Ms at the valve on members and corners, with
-  /// a reserve for other plants; Ms of the position loop, cut at the encoder; the effort; stability
-  /// and both peaks at the friction slopes of Constraints::standstill; |S| at its edges of the
-  /// encoder; the gain from encoder to motor torque with the motor locked, 5 times
+  /// constraints: Ms at the valve on members and corners and the effort on members, both with a
+  /// reserve for other plants; Ms of the position loop, cut at the encoder; stability and both
+  /// peaks at the friction slopes of Constraints::standstill; |S| at its edges of the encoder; the
+  /// gain from encoder to motor torque with the motor locked, 5 times
   /// Standstill::breakaway_stiffness, or 4 times if violations remain; and bounds of the poles.
   /// Where the start is unstable on the edges, no step meets all of these or violations remain, the
   /// edges are left out, then the limit of that gain too. If no step meets them then either, the

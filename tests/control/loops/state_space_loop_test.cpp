@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,76 @@ TEST(StateSpaceLoop, HasTheVariancesOfItsLoops) {
   EXPECT_TRUE(found.stable());
   EXPECT_NEAR(found.wind_variance / expected.wind_variance, 1.0, 2e-3);
   EXPECT_NEAR(found.noise_variance / expected.noise_variance, 1.0, 0.02);
+}
+
+// Without a lag: its response to the tachometer is as high at the Nyquist frequency as the hold
+// lets it be.
+Controller states_without_lag(double factor) {
+  const Controller proportional{LoopStructure::named("PI-0"), {0.5, 0.05, 0.5, 0.01}};
+  plant::StateSpace system = plant::subsystem(sampled_controller(proportional, sample_time),
+                                              {"tachometer", "encoder"}, {"valve_demand"});
+  system.c *= factor;
+  system.d *= factor;
+  return state_space_controller("states without lag", system);
+}
+
+// By the exact sampled loop up to the Nyquist frequency.
+TEST(StateSpaceLoop, HasTheEffortOfItsSamples) {
+  const auto plant = reference::antenna();
+  const auto noise = reference::sensor_noise();
+  auto evaluator = reference::loop_evaluator(plant);
+  for (const Controller& controller : {states(), states_with_torque(), states_without_lag(1.0)}) {
+    const double nyquist = nyquist_frequency(controller);
+    EXPECT_NEAR(nyquist, 157.0796, 1e-3);
+    ControlledAntenna antenna(plant, *controller.structure.state_space(), 0.0);
+    const std::array rms{noise.tachometer_rms, noise.encoder_rms, noise.torque_rms};
+    constexpr int points = 20000;
+    double expected = 0.0, received = 0.0;
+    for (int i = 0; i < points; ++i) {
+      const double w = nyquist * (i + 0.5) / points;
+      const auto at = antenna.at(w);
+      double density = 0.0;
+      for (std::size_t k = 0; k < rms.size(); ++k) {
+        density += rms.at(k) * rms.at(k) / noise.bandwidth * std::norm(at.demand_by_noise.at(k));
+      }
+      expected += density * nyquist / two_pi / points;
+      received += density / sample_density(controller, w) * nyquist / two_pi / points;
+    }
+    const double found = evaluator.evaluate(controller, false).effort_variance;
+    EXPECT_NEAR(found / expected, 1.0, 0.02) << controller.structure.name();
+    if (controller.structure.name() == "states without lag") {
+      EXPECT_LT(received, 0.85 * expected);
+    }
+  }
+  EXPECT_EQ(sample_density(states(), 158.0), 0.0);
+  EXPECT_EQ(sample_density(loops(), 158.0), 1.0);
+}
+
+// The evaluator's frequencies extend far beyond it.
+TEST(StateSpaceLoop, HasItsPeaksBelowTheNyquistFrequency) {
+  const auto plant = reference::antenna();
+  auto evaluator = reference::loop_evaluator(plant);
+  const double nyquist = nyquist_frequency(states());
+  int images = 0;
+  for (double factor = 0.5; factor < 12.0; factor *= 1.5) {
+    const Controller controller = states_without_lag(factor);
+    const auto& response = evaluator.response();
+    const auto sensitivity = [&](Eigen::Index i) {
+      return 1.0 /
+             std::abs(1.0 + loop_gain(plant::point(response, i), response.frequency[i], controller,
+                                      reference::delay, LoopBreak::valve_command));
+    };
+    for (Eigen::Index i = 1; i + 1 < response.frequency.size(); ++i) {
+      const bool beyond = response.frequency[i] > nyquist && sensitivity(i) > 1.0;
+      images += static_cast<int>(beyond && sensitivity(i) > sensitivity(i - 1) &&
+                                 sensitivity(i) > sensitivity(i + 1));
+    }
+    const LoopEvaluation evaluation = evaluator.evaluate(controller, false);
+    for (const auto& peak : evaluation.peaks[static_cast<std::size_t>(LoopBreak::valve_command)]) {
+      EXPECT_LT(peak.frequency, nyquist) << factor;
+    }
+  }
+  EXPECT_GT(images, 2);
 }
 
 TEST(StateSpaceLoop, IsBrokenAtTheValveCommandAlone) {

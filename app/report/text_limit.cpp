@@ -81,10 +81,10 @@ Document document_of(const design::PointingLimit& limit) {
   if (!limit.robustified && !limit.unconstrained.members.empty()) {
     text += wrapped("No LQG of the searched weights meets the constraints on every plant.", "  ");
   }
-  if (limit.robustified && !limit.refined) {
+  if (!limit.refined && !limit.unconstrained.members.empty()) {
     text += wrapped(
-        "No refined state-space controller: the start has repeated poles, or the search found "
-        "none that meets every constraint.",
+        "No refined state-space controller: there is no start, the start has repeated poles, or "
+        "the search found none that meets every constraint.",
         "  ");
   }
   if (limit.controllers.empty()) return text;

@@ -68,6 +68,11 @@ class LoopCurve {
   LoopGainPoint with_gradient(double w) const {
     return loop_gain_with_gradient(channels_.at(w), w, controller_, delay_, break_);
   }
+  // Frequencies on the grid that are no images (nyquist_frequency).
+  Eigen::Index own() const {
+    return std::ranges::upper_bound(frequency(), nyquist_frequency(controller_)) -
+           frequency().begin();
+  }
   // d ln L / d ln w by central difference.
   Complex slope(double w) const {
     constexpr double step = 1e-6;
@@ -118,7 +123,7 @@ std::vector<LoopQuantity> smallest_gain_margins(const LoopChannels& channels, do
   const Eigen::ArrayXd& w = loop.frequency();
   std::vector<LoopQuantity> found;
   Complex before = loop.on_grid(0);
-  for (Eigen::Index i = 1; i < w.size(); ++i) {
+  for (Eigen::Index i = 1; i < loop.own(); ++i) {
     const Complex here = loop.on_grid(i);
     const bool crosses =
         (before.imag() < 0.0) != (here.imag() < 0.0) && (before.real() < 0.0 || here.real() < 0.0);
@@ -150,7 +155,7 @@ std::vector<LoopQuantity> smallest_phase_margins(const LoopChannels& channels, d
   const Eigen::ArrayXd& w = loop.frequency();
   std::vector<LoopQuantity> found;
   double before = std::log(std::norm(loop.on_grid(0)));
-  for (Eigen::Index i = 1; i < w.size(); ++i) {
+  for (Eigen::Index i = 1; i < loop.own(); ++i) {
     const double here = std::log(std::norm(loop.on_grid(i)));
     if ((before < 0.0) != (here < 0.0)) {
       const double at = crossing([&](double x) { return std::log(std::norm(loop.at(x))); },

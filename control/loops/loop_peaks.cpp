@@ -259,16 +259,19 @@ void LoopEvaluator::State::find_peaks(const Controller& controller, LoopBreak lo
   };
   const auto b = static_cast<std::size_t>(loop_break);
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  const std::size_t last = points();
-  double before = infinity, here = infinity;
+  // Beyond a state space's Nyquist frequency there are images of what is below.
   const double nyquist = nyquist_frequency(controller);
+  const auto frequency = [&](std::size_t i) {
+    return packs_[leaves_[i / numerics::pack_size]].frequency[i % numerics::pack_size];
+  };
+  std::size_t last = points();
+  while (last > 0 && !(frequency(last - 1) < nyquist)) --last;
+  double before = infinity, here = infinity;
   for (std::size_t i = 0; i < last; i += numerics::pack_size) {
-    const std::uint32_t leaf = leaves_[i / numerics::pack_size];
-    const numerics::RealPack& square = values_[leaf].sensitivity_square[b];
+    const numerics::RealPack& square =
+        values_[leaves_[i / numerics::pack_size]].sensitivity_square[b];
     const std::size_t lanes = std::min(numerics::pack_size, last - i);
     for (std::size_t lane = 0; lane < lanes; ++lane) {
-      // What is beyond is an image of what is below.
-      if (!(packs_[leaf].frequency[lane] < nyquist)) break;
       const double after = square[lane];
       if (here > 1.0 && here >= before && here > after && here < infinity) {
         consider({i + lane - 1, here});
@@ -277,8 +280,14 @@ void LoopEvaluator::State::find_peaks(const Controller& controller, LoopBreak lo
       here = after;
     }
   }
-  for (std::size_t m = 0; m < count; ++m)
-    peaks.push_back(polish(controller, loop_break, maxima[m].place));
+  // |S| is even about the Nyquist frequency: where it rises up to there, that is a peak.
+  const bool rises_to_end = last < points() && here > 1.0 && here >= before && here < infinity;
+  if (rises_to_end) consider({last - 1, here});
+  for (std::size_t m = 0; m < count; ++m) {
+    const std::size_t i = maxima[m].place;
+    peaks.push_back(rises_to_end && i + 1 == last ? peak_at(controller, loop_break, frequency(i))
+                                                  : polish(controller, loop_break, i));
+  }
   std::sort(peaks.begin(), peaks.end(), [](const SensitivityPeak& x, const SensitivityPeak& y) {
     return x.magnitude > y.magnitude;
   });

@@ -22,7 +22,8 @@ namespace {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // The controller's poles, of a damping ratio of 0.05 or more, make peaks between the plants' modes:
-// a parabola through such points misses less than 1 % of them, little beside the reserve.
+// a parabola through such points misses less than 1 % of them, which the reserve covers at the
+// valve.
 constexpr int points_per_decade = 100;
 
 // Frequencies that show the peaks of every plant: each one's own grid, put together.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,6 +10,7 @@
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
 
 // A state space in the loop, by independent methods: the evaluator's frequency response, the exact
@@ -98,6 +100,7 @@ TEST(StateSpaceLoop, HasTheEffortOfItsSamples) {
 TEST(StateSpaceLoop, HasItsPeaksBelowTheNyquistFrequency) {
   const auto plant = reference::antenna();
   auto evaluator = reference::loop_evaluator(plant);
+  const plant::PointResponse point_response(plant);
   const double nyquist = nyquist_frequency(states());
   int images = 0;
   for (double factor = 0.5; factor < 12.0; factor *= 1.5) {
@@ -114,8 +117,16 @@ TEST(StateSpaceLoop, HasItsPeaksBelowTheNyquistFrequency) {
                                  sensitivity(i) > sensitivity(i + 1));
     }
     const LoopEvaluation evaluation = evaluator.evaluate(controller, false);
+    double highest = 1.0;
+    for (Eigen::Index i = 0; response.frequency[i] < nyquist; ++i) {
+      highest = std::max(highest, sensitivity(i));
+    }
+    EXPECT_GE(evaluation.highest_peak(LoopBreak::valve_command), (1.0 - 1e-9) * highest) << factor;
     for (const auto& peak : evaluation.peaks[static_cast<std::size_t>(LoopBreak::valve_command)]) {
       EXPECT_LT(peak.frequency, nyquist) << factor;
+      const auto there = loop_gain(point_response(peak.frequency), peak.frequency, controller,
+                                   reference::delay, LoopBreak::valve_command);
+      EXPECT_NEAR(peak.magnitude * std::abs(1.0 + there), 1.0, 1e-6) << factor;
     }
   }
   EXPECT_GT(images, 2);

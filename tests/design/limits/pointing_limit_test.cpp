@@ -251,9 +251,11 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
   const auto expect_peaks = [&](const SampledSetting& one, double at_valve, double of_position) {
     const auto response = SampledSetting::controller_response(controller, one.frequency());
     EXPECT_LT(one.spectral_radius(controller), 1.0);
-    // The search reads peaks on a coarser grid, to less than 1 %.
-    EXPECT_LE(one.highest_peak(response).magnitude, 1.01 * at_valve);
-    EXPECT_LE(one.highest_position_peak(response).magnitude, 1.01 * of_position);
+    // The search reads peaks on a coarser grid: 0.4 % were missed of those at the valve, 0.8 % at
+    // an edge, which a reserve covers.
+    const double missed = at_valve == 3.0 ? 1.002 : 1.01;
+    EXPECT_LE(one.highest_peak(response).magnitude, missed * at_valve);
+    EXPECT_LE(one.highest_position_peak(response).magnitude, 1.002 * of_position);
   };
   const double friction = problem.plant.drive.viscous_friction;
   expect_peaks(setting(problem.plant, friction, 1.0), 1.7, 2.0);

@@ -13,7 +13,7 @@
 namespace boresight::design {
 namespace {
 
-// Peaks are read off a parabola between frequencies: what it can miss is kept in hand.
+// Peaks are interpolated between frequencies: what that can miss is kept in hand.
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
 
@@ -29,8 +29,8 @@ void validate(const SampledLoopGoals& goals) {
     return value ? fmt::format(fmt::runtime(text), *value) : std::string();
   };
   throw InvalidInput(fmt::format(
-      "sampled loops: expected peaks of the sensitivity above 1, a valve_effort and a gain "
-      "above 0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}",
+      "sampled loops: expected maximum sensitivities above 1, a control effort and a gain above "
+      "0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}",
       goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak,
       if_given(", {} of the position loop", goals.position_peak), goals.control_effort,
       if_given(", {} N.m/rad", goals.locked_motor_gain)));

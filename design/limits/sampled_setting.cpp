@@ -8,6 +8,7 @@
 #include <boresight/control/equations/lyapunov.hpp>
 #include <boresight/control/loops/antenna_in_wind.hpp>
 #include <boresight/design/limits/sampled_setting.hpp>
+#include <boresight/numerics/bracketed_search.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/linear/dense_response.hpp>
@@ -209,47 +210,59 @@ Eigen::ArrayXXcd SampledSetting::controller_response(const plant::StateSpace& co
 }
 
 SampledPeak SampledSetting::highest_peak(const Eigen::ArrayXXcd& controller_response) const {
-  return highest_of(-(1.0 - (controller_response * response_).rowwise().sum()).abs().log());
+  return highest_of(Eigen::ArrayXcd::Ones(frequency_.size()),
+                    1.0 - (controller_response * response_).rowwise().sum());
 }
 
 // S = (1 + L of the other sensors) / (1 + L of all).
 SampledPeak SampledSetting::highest_position_peak(
     const Eigen::ArrayXXcd& controller_response) const {
   const Eigen::ArrayXcd others = inner_return_difference(response_, controller_response);
-  const Eigen::ArrayXcd all = others - controller_response.col(encoder) * response_.col(encoder);
-  return highest_of((others / all).abs().log());
+  return highest_of(others, others - controller_response.col(encoder) * response_.col(encoder));
 }
 
 SampledPeak SampledSetting::highest_locked_motor_gain(
     const Eigen::ArrayXXcd& controller_response) const {
-  return highest_of((controller_response.col(encoder) * response_.col(motor_torque) /
-                     inner_return_difference(response_, controller_response))
-                        .abs()
-                        .log());
+  return highest_of(controller_response.col(encoder) * response_.col(motor_torque),
+                    inner_return_difference(response_, controller_response));
 }
 
-// Of ln |S| at the frequencies: the highest of all local maxima, each interpolated by a parabola.
-// Of two that are nearly as high, the lower on the grid may be the higher one between.
-SampledPeak SampledSetting::highest_of(const Eigen::ArrayXd& level) const {
+// The return difference is as smooth as plant and controller are, its inverse is not: numerator and
+// denominator are interpolated over ln w, by polynomials through five points.
+SampledPeak SampledSetting::highest_of(const Eigen::ArrayXcd& numerator,
+                                       const Eigen::ArrayXcd& denominator) const {
+  constexpr Eigen::Index nodes = 5;
+  // Of ln: a local maximum on the grid that is lower by more is not the highest between either.
+  constexpr double contending = 0.1;
+  const Eigen::ArrayXd level = (numerator / denominator).abs().log();
   Eigen::Index top = 0;
-  double highest = level.maxCoeff(&top), frequency = frequency_[top];
+  const double on_grid = level.maxCoeff(&top);
+  SampledPeak highest{frequency_[top], on_grid};
+  if (level.size() < nodes) return {highest.frequency, std::exp(highest.magnitude)};
   for (Eigen::Index k = 1; k + 1 < level.size(); ++k) {
     if (level[k] < level[k - 1] || level[k] < level[k + 1]) continue;
-    const double left = std::log(frequency_[k - 1] / frequency_[k]);
-    const double right = std::log(frequency_[k + 1] / frequency_[k]);
-    const double from_left = (level[k] - level[k - 1]) / -left;
-    const double from_right = (level[k + 1] - level[k]) / right;
-    const double curvature = (from_right - from_left) / (right - left);
-    if (!(curvature < 0.0)) continue;
-    // The parabola through the three points: slope at the middle one and curvature.
-    const double slope = from_right - curvature * right;
-    const double place = std::clamp(-slope / (2.0 * curvature), left, right);
-    const double between = level[k] + place * (slope + curvature * place);
-    if (!(between > highest)) continue;
-    highest = between;
-    frequency = frequency_[k] * std::exp(place);
+    if (level[k] < on_grid - contending) continue;
+    const Eigen::Index first = std::clamp(k - nodes / 2, Eigen::Index{0}, level.size() - nodes);
+    const Eigen::Array<double, nodes, 1> places =
+        (frequency_.segment<nodes>(first) / frequency_[k]).log();
+    const auto between = [&](double place) {
+      std::complex<double> above = 0.0, below = 0.0;
+      for (Eigen::Index i = 0; i < nodes; ++i) {
+        double weight = 1.0;  // Lagrange's
+        for (Eigen::Index j = 0; j < nodes; ++j) {
+          if (j != i) weight *= (place - places[j]) / (places[i] - places[j]);
+        }
+        above += weight * numerator[first + i];
+        below += weight * denominator[first + i];
+      }
+      return std::log(std::abs(above / below));
+    };
+    const double place =
+        numerics::bracketed_maximum(between, places[k - 1 - first], places[k + 1 - first]);
+    const double found = between(place);
+    if (found > highest.magnitude) highest = {frequency_[k] * std::exp(place), found};
   }
-  return {frequency, std::exp(highest)};
+  return {highest.frequency, std::exp(highest.magnitude)};
 }
 
 Eigen::ArrayXcd inner_return_difference(const Eigen::ArrayXXcd& plant,

@@ -83,7 +83,7 @@ class SampledSetting {
   /// motor_torque): the same for every setting with these frequencies.
   static Eigen::ArrayXXcd controller_response(const plant::StateSpace& controller,
                                               const Eigen::ArrayXd& frequency);
-  /// Ms at the valve command, interpolated between the frequencies by a parabola in the logarithms.
+  /// Ms at the valve command, also between the frequencies: the return difference is interpolated.
   SampledPeak highest_peak(const Eigen::ArrayXXcd& controller_response) const;
   /// The same of the position loop: cut at the encoder alone, with tachometer and torque fed back.
   SampledPeak highest_position_peak(const Eigen::ArrayXXcd& controller_response) const;
@@ -98,7 +98,8 @@ class SampledSetting {
   Eigen::MatrixXd noise_jolts(const ClosedLoop& loop) const;
   double boresight_variance(const ClosedLoop& loop, const Eigen::MatrixXd& covariance,
                             double direct_variance) const;
-  SampledPeak highest_of(const Eigen::ArrayXd& level) const;
+  SampledPeak highest_of(const Eigen::ArrayXcd& numerator,
+                         const Eigen::ArrayXcd& denominator) const;
 
   std::string name_;
   plant::AntennaPlant plant_;

@@ -216,7 +216,7 @@ TEST(PointingLimit, RefinesFromTheLoopsItIsGiven) {
          }});
   };
   const PointingLimit limit = from(loops);
-  ASSERT_TRUE(limit.refined);
+  ASSERT_TRUE(limit.robustified && limit.refined);
   EXPECT_EQ(limit.refined_from, "lags");
   // Five pairs of poles are added to the two lags.
   EXPECT_EQ(limit.refined->controller.a.rows(), 2 + 2 * 5);
@@ -248,14 +248,12 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
     return SampledSetting("plant", plant, filter, problem.noise, limit.sample_time,
                           plant::frequency_grid(plant, 1e-3, 24.9, 1000), encoder_gain);
   };
-  const auto expect_peaks = [&](const SampledSetting& one, double at_valve, double of_position) {
+  const auto expect_peaks = [&](const SampledSetting& one, double at_valve, double of_position,
+                                double missed = 2e-4) {
     const auto response = SampledSetting::controller_response(controller, one.frequency());
     EXPECT_LT(one.spectral_radius(controller), 1.0);
-    // The search reads peaks on a coarser grid: 0.4 % were missed of those at the valve, 0.8 % at
-    // an edge, which a reserve covers.
-    const double missed = at_valve == 3.0 ? 1.002 : 1.01;
-    EXPECT_LE(one.highest_peak(response).magnitude, missed * at_valve);
-    EXPECT_LE(one.highest_position_peak(response).magnitude, 1.002 * of_position);
+    EXPECT_LE(one.highest_peak(response).magnitude, (1.0 + missed) * at_valve);
+    EXPECT_LE(one.highest_position_peak(response).magnitude, (1.0 + missed) * of_position);
   };
   const double friction = problem.plant.drive.viscous_friction;
   expect_peaks(setting(problem.plant, friction, 1.0), 1.7, 2.0);
@@ -263,7 +261,8 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
   expect_peaks(setting(with_structure_frequencies(0.95), friction, 1.0), 1.7, HUGE_VAL);
   expect_peaks(setting(problem.plant, 100.0, 1.0), 3.0, 3.0);
   for (const Standstill::Edge& edge : standing.standstill->edges) {
-    expect_peaks(setting(problem.plant, edge.friction, edge.encoder_gain), 2.5, HUGE_VAL);
+    // Here a pole of the controller makes the peak, which the grid of the search does not follow.
+    expect_peaks(setting(problem.plant, edge.friction, edge.encoder_gain), 2.5, HUGE_VAL, 3e-3);
   }
   const PoleBounds poles = bounds_of(controller);
   EXPECT_GT(poles.slowest, 0.245);
@@ -383,7 +382,7 @@ TEST(PointingLimit, RefusesWhatItCannotEvaluate) {
   const Eigen::ArrayXd some = Eigen::ArrayXd::LinSpaced(30, 0.1, 150.0);
   const SampledSetting one("one", problem.plant, filter, problem.noise, 0.02, some);
   EXPECT_THAT(reference::Call([&] { search_limited_lqg(one, {.sensitivity_peak = 1.0}); }),
-              ThrowsMessage<InvalidInput>(HasSubstr("peaks of the sensitivity above 1")));
+              ThrowsMessage<InvalidInput>(HasSubstr("maximum sensitivities above 1")));
 }
 
 }  // namespace

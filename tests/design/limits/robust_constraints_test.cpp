@@ -229,7 +229,7 @@ TEST(RobustConstraints, RefuseWhatCannotBeCompared) {
               ThrowsMessage<InvalidInput>(HasSubstr("the same frequencies")));
   EXPECT_THAT(
       constraints(one, none, {2.0, 0.0, 3.0}),
-      ThrowsMessage<InvalidInput>(HasSubstr("valve_effort and a gain above 0, found 2, 3 at "
+      ThrowsMessage<InvalidInput>(HasSubstr("control effort and a gain above 0, found 2, 3 at "
                                             "standstill, 2.5 at an edge and 0 rad/s")));
   EXPECT_THAT(constraints(one, none, {2.0, 0.6, 3.0, 2.5, 2.0, -4.0}),
               ThrowsMessage<InvalidInput>(HasSubstr("0.6 rad/s, -4 N.m/rad")));

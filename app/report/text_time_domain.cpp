@@ -166,8 +166,9 @@ Document other_friction_part(const TimeDomainSection& section) {
                 "With other friction ({}): no limit cycle in {} runs, +-{} mdeg at the "
                 "encoder at most.",
                 fmt::join(without, "; "), all, mdeg(largest))
-          : fmt::format("With other friction, limit cycles in runs of {:g} s, not confirmed: {}.",
-                        section.options.limit_cycle_duration, fmt::join(found, "; "));
+          : fmt::format("With other friction, limit cycles that last {:g} s: {}.",
+                        design::limit_cycle_confirmation * section.options.limit_cycle_duration,
+                        fmt::join(found, "; "));
   if (!found.empty() && !without.empty()) {
     text += fmt::format(" None with {}.", fmt::join(without, "; "));
   }

@@ -111,6 +111,15 @@ LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
   return watch(loop, options, rate, nudges.at(start), options.limit_cycle_duration);
 }
 
+LimitCycleResult confirmed_limit_cycle_run(const SimulatedLoop& loop,
+                                           const NonlinearVerificationOptions& options, double rate,
+                                           std::size_t start) {
+  LimitCycleResult run = limit_cycle_run(loop, options, rate, start);
+  if (!run.limit_cycle) return run;
+  return watch(loop, options, rate, nudges.at(start),
+               limit_cycle_confirmation * options.limit_cycle_duration);
+}
+
 LimitCycleResult confirmed_limit_cycle(const SimulatedLoop& loop,
                                        const NonlinearVerificationOptions& options, double rate,
                                        std::span<LimitCycleResult> runs) {

@@ -18,6 +18,11 @@ LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
                                  const NonlinearVerificationOptions& options, double rate,
                                  std::size_t start);
 
+/// The same, with a limit cycle confirmed: the run limit_cycle_confirmation times as long instead.
+LimitCycleResult confirmed_limit_cycle_run(const SimulatedLoop& loop,
+                                           const NonlinearVerificationOptions& options, double rate,
+                                           std::size_t start);
+
 /// The worst of the runs at one rate, one from each start. A limit cycle is confirmed by a run
 /// limit_cycle_confirmation times as long, which replaces it in `runs`. @throws as run_loop.
 LimitCycleResult confirmed_limit_cycle(const SimulatedLoop& loop,

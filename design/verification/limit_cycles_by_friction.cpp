@@ -50,8 +50,8 @@ std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
   std::vector<LimitCycleResult> runs(result.size() * limit_cycle_starts);
   numerics::for_each_index(runs.size(), options.threads, [&](std::size_t i) {
     const std::size_t place = i / limit_cycle_starts;
-    runs[i] = limit_cycle_run(loops[place / rates.size()], options, result[place].rate,
-                              i % limit_cycle_starts);
+    runs[i] = confirmed_limit_cycle_run(loops[place / rates.size()], options, result[place].rate,
+                                        i % limit_cycle_starts);
   });
   for (std::size_t i = 0; i < runs.size(); ++i) {
     LimitCyclesWithFriction& of = result[i / limit_cycle_starts];

@@ -99,7 +99,7 @@ void describe_limit_cycles(Visitor& v, const std::vector<design::LimitCycleResul
 void describe_other_friction(Visitor& v, const std::vector<design::LimitCyclesWithFriction>& runs) {
   v.list("limit_cycles_by_friction", runs,
          "Limit cycles with friction that differs from what is stated, without wind and noise, "
-         "not confirmed by longer runs: each friction at rest, then at the tracking rate.",
+         "confirmed by longer runs: each friction at rest, then at the tracking rate.",
          [&](const design::LimitCyclesWithFriction& one) {
            v.text("friction", one.friction, "What differs.");
            v.number("rate", one.rate, unit::millidegree_per_second, "Of the command.", known);

@@ -469,8 +469,8 @@ TEST(TimeDomain, SaysWhichOtherFrictionLimitCycles) {
                         "runs, +-0.0600 mdeg at the encoder at most."));
   other.limit_cycles_by_friction[2].limit_cycles = 2;
   EXPECT_THAT(on_one_line(to_text(other)),
-              HasSubstr("not confirmed: torques x 1.3 at rest in 2 of 3 runs, +-0.0600 mdeg at the "
-                        "encoder. None with torques x 0.7."));
+              HasSubstr("limit cycles that last 600 s: torques x 1.3 at rest in 2 of 3 runs, "
+                        "+-0.0600 mdeg at the encoder. None with torques x 0.7."));
 }
 
 TEST(TimeDomain, JsonAloneGivesTheDifferenceFromThePrediction) {

@@ -48,8 +48,9 @@ class Refinement {
 
   RefinementResult run(const plant::StateSpace& start) {
     double violation = constraints_.excess(start);
-    RefinementResult result{
-        start, constraints_.largest_rms(start), !(violation > 0.0), 0, std::nullopt, 0};
+    const double rms_of_start = constraints_.largest_rms(start);
+    RefinementResult result{start, rms_of_start, !(violation > 0.0), 0, std::nullopt,
+                            0,     rms_of_start};
     double radius = first_radius;
     double objective = 0.0;
     int corrected = 0, idle = 0;
@@ -113,6 +114,7 @@ class Refinement {
       result.controller = std::move(found.controller);
       result.boresight_rms =
           rms.head(static_cast<Eigen::Index>(constraints_.plants().size())).maxCoeff();
+      result.last_rms = result.boresight_rms;
       result.feasible = feasible;
       ++result.steps;
       if (options_.violations && feasible) path.push_back(result);
@@ -145,6 +147,7 @@ class Refinement {
         stride *= 2;
       }
     }
+    path[best].last_rms = path.back().boresight_rms;
     path[best].evaluations = found.evaluations;
     path[best].violations = least;
     return std::move(path[best]);

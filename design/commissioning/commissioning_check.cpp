@@ -194,7 +194,7 @@ void StageObserver::observe_recorder(const StageController& stage, StageObservat
       calm[0] += power * std::norm(plant.encoder_command * u + (source == 0 ? 1.0 : 0.0));
       calm[1] += power * std::norm(plant.tachometer_command * u + (source == 1 ? 1.0 : 0.0));
       calm[2] += power * std::norm(plant.torque_command * u + (source == 2 ? 1.0 : 0.0));
-      calm[3] += power * std::norm(u);
+      calm[3] += power * std::norm(u) * control::sample_density(stage.controller, w);
     }
     const std::complex<double> by_wind =
         -(controller.rate * plant.tachometer_wind + torque_path * plant.torque_wind +

@@ -45,12 +45,14 @@ struct CompensatorResponse {
 /// torque and R P that to the encoder, each times -1; C is 0.
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
 
-/// The Nyquist frequency of a state space (rad/s), from which on its loop's response repeats what
-/// is below; infinite for loops, which are continuous.
+/// The Nyquist frequency of a state space (rad/s); infinite for loops, which are continuous. Beyond
+/// it the controller's response mirrors what is below, so that peaks and margins there are images.
 double nyquist_frequency(const Controller& controller);
 
-/// Density of the samples of a state space's command over that of the held command, of which
-/// compensator_response is: 1/hold_amplitude^2 up to the Nyquist frequency, 0 beyond. 1 for loops.
+/// Ratio of two power spectral densities of a state space's command: of its samples, over that of
+/// the held command, as compensator_response gives it. 1/hold_amplitude^2 up to the Nyquist
+/// frequency, 0 beyond; 1 for loops. The control effort is the rms of the samples.
+/// `angular_frequency`: rad/s, 0 or more.
 double sample_density(const Controller& controller, double angular_frequency);
 
 /// State space of the controller. Inputs: tachometer (rad/s), encoder (rad), motor_torque (N m;

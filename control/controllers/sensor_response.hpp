@@ -12,7 +12,8 @@ namespace boresight::control {
 /// The sensors that a controller reads, in this order wherever they are listed.
 inline constexpr std::array sensor_names{"tachometer", "encoder", "motor_torque"};
 
-/// Amplitude of a zero-order hold, sin(wT/2)/(wT/2). `frequency`: w, rad/s, 0 or more.
+/// Amplitude of a zero-order hold, sin(wT/2)/(wT/2). `frequency`: w, rad/s, 0 or more;
+/// `sample_time`: T, s.
 double hold_amplitude(double frequency, double sample_time);
 
 /// The frequency response of a sampled controller from each sensor to the valve demand as the plant

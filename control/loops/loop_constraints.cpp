@@ -68,8 +68,8 @@ class LoopCurve {
   LoopGainPoint with_gradient(double w) const {
     return loop_gain_with_gradient(channels_.at(w), w, controller_, delay_, break_);
   }
-  // Frequencies on the grid that are no images (nyquist_frequency).
-  Eigen::Index own() const {
+  // How many frequencies of the grid do not exceed nyquist_frequency.
+  Eigen::Index size_below_nyquist() const {
     return std::ranges::upper_bound(frequency(), nyquist_frequency(controller_)) -
            frequency().begin();
   }
@@ -121,9 +121,10 @@ std::vector<LoopQuantity> smallest_gain_margins(const LoopChannels& channels, do
                                                 std::size_t maximum) {
   const LoopCurve loop(channels, delay, controller, loop_break);
   const Eigen::ArrayXd& w = loop.frequency();
+  const Eigen::Index size = loop.size_below_nyquist();
   std::vector<LoopQuantity> found;
   Complex before = loop.on_grid(0);
-  for (Eigen::Index i = 1; i < loop.own(); ++i) {
+  for (Eigen::Index i = 1; i < size; ++i) {
     const Complex here = loop.on_grid(i);
     const bool crosses =
         (before.imag() < 0.0) != (here.imag() < 0.0) && (before.real() < 0.0 || here.real() < 0.0);
@@ -132,10 +133,10 @@ std::vector<LoopQuantity> smallest_gain_margins(const LoopChannels& channels, do
                                  before.imag(), w[i], here.imag());
       const LoopGainPoint point = loop.with_gradient(at);
       const Complex slope = loop.slope(at);
-      const double size = std::abs(point.value);
+      const double magnitude = std::abs(point.value);
       if (point.value.real() < 0.0) {
-        const double sign = size < 1.0 ? -1.0 : 1.0;
-        LoopQuantity margin{at, size < 1.0 ? 1.0 / size : size, {}};
+        const double sign = magnitude < 1.0 ? -1.0 : 1.0;
+        LoopQuantity margin{at, magnitude < 1.0 ? 1.0 / magnitude : magnitude, {}};
         for (std::size_t k = 0; k < controller.gains.size(); ++k) {
           const Complex by = point.by_gain[k];
           margin.log_gradient[k] = sign * (by.real() - slope.real() * by.imag() / slope.imag());
@@ -153,9 +154,10 @@ std::vector<LoopQuantity> smallest_phase_margins(const LoopChannels& channels, d
                                                  std::size_t maximum) {
   const LoopCurve loop(channels, delay, controller, loop_break);
   const Eigen::ArrayXd& w = loop.frequency();
+  const Eigen::Index size = loop.size_below_nyquist();
   std::vector<LoopQuantity> found;
   double before = std::log(std::norm(loop.on_grid(0)));
-  for (Eigen::Index i = 1; i < loop.own(); ++i) {
+  for (Eigen::Index i = 1; i < size; ++i) {
     const double here = std::log(std::norm(loop.on_grid(i)));
     if ((before < 0.0) != (here < 0.0)) {
       const double at = crossing([&](double x) { return std::log(std::norm(loop.at(x))); },

@@ -80,7 +80,7 @@ class PeakList {
 struct LoopEvaluation {
   double wind_variance = 0.0;
   double noise_variance = 0.0;
-  double effort_variance = 0.0;
+  double effort_variance = 0.0;  // of a state space: of its samples (sample_density)
   /// Variances of valve demand, (rad/s)^2, and motor torque, (N m)^2, caused by wind: the approach
   /// to saturation in gusts. 0 unless look_at_gusts() requested them.
   double wind_demand_variance = 0.0;
@@ -156,7 +156,8 @@ struct PanelConditions {
 class LoopEvaluator {
  public:
   /// For a grid (rad/s). Integrals cover the part of it within the band by the trapezoid rule in ln
-  /// f; include the band edges in the grid. Peaks and stability cover the whole grid.
+  /// f; include the band edges in the grid. Peaks, of a state space below its
+  /// nyquist_frequency, and stability cover the whole grid.
   /// @throws InvalidInput for sizes that differ, fewer than three frequencies, or a grid that does
   /// not rise.
   LoopEvaluator(LoopChannels channels, const GridConditions& conditions);

@@ -29,9 +29,9 @@ TrackingProblem without_band_limits(TrackingProblem problem) {
 std::array<control::Margins, 3> margins_of(TrackingProblem problem,
                                            const control::Controller& controller) {
   problem.points_per_decade = 100;
-  const Eigen::ArrayXd whole = analysis_grid(problem);
-  const auto own = std::ranges::lower_bound(whole, control::nyquist_frequency(controller));
-  const Eigen::ArrayXd grid = whole.head(own - whole.begin());
+  const Eigen::ArrayXd all = analysis_grid(problem);
+  const auto beyond = std::ranges::upper_bound(all, control::nyquist_frequency(controller));
+  const Eigen::ArrayXd grid = all.head(beyond - all.begin());
   const plant::PointResponse response(problem.plant);
   std::array<control::Margins, 3> margins;
   for (std::size_t b = 0; b < control::loop_breaks.size(); ++b) {

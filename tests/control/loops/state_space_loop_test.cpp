@@ -87,10 +87,8 @@ TEST(StateSpaceLoop, HasTheEffortOfItsSamples) {
       received += density / sample_density(controller, w) * nyquist / two_pi / points;
     }
     const double found = evaluator.evaluate(controller, false).effort_variance;
-    EXPECT_NEAR(found / expected, 1.0, 0.02) << controller.structure.name();
-    if (controller.structure.name() == "states without lag") {
-      EXPECT_LT(received, 0.85 * expected);
-    }
+    EXPECT_NEAR(found / expected, 1.0, 1e-3) << controller.structure.name();
+    EXPECT_LT(received, 0.998 * expected) << controller.structure.name();
   }
   EXPECT_EQ(sample_density(states(), 158.0), 0.0);
   EXPECT_EQ(sample_density(loops(), 158.0), 1.0);

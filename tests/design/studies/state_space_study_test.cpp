@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -61,10 +60,12 @@ TEST(LimitCycleViolations, AreThoseOfTheStatedFrictionFirst) {
   const auto simulated = verify_in_time_domain(demo.mission, demo.problem, demo.loop.controller,
                                                "PI", 1, 2, FurtherRuns::none);
   ASSERT_TRUE(simulated);
-  ASSERT_TRUE(std::ranges::any_of(simulated->result.limit_cycles, [](const LimitCycleResult& one) {
-    return one.starts_with_limit_cycle > 0;
-  }));
-  EXPECT_EQ(violations(integral, 1000), 30);
+  int starts = 0;
+  for (const LimitCycleResult& one : simulated->result.limit_cycles) {
+    starts += one.starts_with_limit_cycle;
+  }
+  ASSERT_GT(starts, 1);
+  EXPECT_EQ(violations(integral, 1000), 30);  // however many
   EXPECT_EQ(violations(integral, 1), 1);
   EXPECT_EQ(violations(as_state_space(reference::lag_loops()), 1000), 0);
 }

@@ -29,11 +29,11 @@ struct LimitCyclesWithFriction {
   double encoder_amplitude = 0.0;  // rad at the sky, the largest; NaN if a run did not complete
 };
 
-/// Searches for limit cycles (confirmed_limit_cycle_run) with each friction, at rest and then at the
-/// options' tracking rate if that is not 0. The loop's feedforward keeps the friction of `loop`.
-/// Each friction takes 6 runs, some 0.8 s of computing on the 70-m antenna, and three times that
-/// for each with a limit cycle, over options.threads; the result does not depend on them. @throws
-/// as run_loop.
+/// Searches for limit cycles (confirmed_limit_cycle_run) with each friction, at rest and then at
+/// the options' tracking rate if that is not 0. The loop's feedforward keeps the friction of
+/// `loop`. Each friction takes 6 runs, some 0.8 s of computing on the 70-m antenna, and three times
+/// that for each with a limit cycle, over options.threads; the result does not depend on them.
+/// @throws as run_loop.
 std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
     const SimulatedLoop& loop, std::span<const FrictionVariation> frictions,
     const NonlinearVerificationOptions& options);

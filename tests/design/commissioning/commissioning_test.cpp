@@ -325,8 +325,8 @@ TEST(Commissioning, BringsAStateSpaceInByItsOutput) {
   EXPECT_NEAR(last.boresight_rms.nominal / loops.boresight_rms, 1.0, 1e-3);
   // The recorder shows the samples of the command, of which the evaluator's effort is.
   auto evaluator = make_evaluator(problem);
-  const double effort = std::sqrt(
-      evaluator.evaluate(reference::lag_loops_as_state_space(), false).effort_variance);
+  const double effort =
+      std::sqrt(evaluator.evaluate(reference::lag_loops_as_state_space(), false).effort_variance);
   EXPECT_NEAR(last.calm_valve.nominal / effort, 1.0, 2e-3);
   EXPECT_NEAR(last.overshoot.nominal, loops.overshoot, 5e-3);
   // The reserve is that of the whole output.

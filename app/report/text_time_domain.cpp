@@ -90,9 +90,15 @@ Document integrators_part(const TimeDomainSection& section) {
   const std::string verdict =
       both.status == RunStatus::complete
           ? fmt::format(
-                "{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e}); the "
+                "{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e}){}; the "
                 "integration is {}confirmed",
                 mdeg(both.cvodes_rms), both.ratio(), design::integrator_agreement_limit,
+                both.ratio_without_quantisation
+                    ? fmt::format(
+                          ", without encoder steps, which amplify rounding, by {:.0e}; with "
+                          "them the first integrator has {} mdeg",
+                          *both.ratio_without_quantisation, mdeg(both.collocation_rms))
+                    : std::string(),
                 design::agree(both) ? "" : "NOT ")
           : "no check, " + ended(both.status, both.message);
   return wrapped(fmt::format("Second integrator, CVODES: {}.", verdict), "  ", "  ");

@@ -68,7 +68,9 @@ void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
   describe_status(v, both.status,
                   "How the run in wind ended or, if that is complete, the run of CVODES.");
   v.text_or_null("message", both.message, no_figures);
-  v.flag("agree", design::agree(both), "Both runs are complete, and ratio is at most limit.");
+  v.flag(
+      "agree", design::agree(both),
+      "Both runs are complete, and ratio, or else ratio_without_quantisation, is at most limit.");
   v.number("duration", both.duration, unit::second, "Compared, from the end of settling.", known);
   v.number("boresight_rms", both.collocation_rms, unit::millidegree,
            "About the mean, by exponential collocation, as the run in wind.", positive);
@@ -77,6 +79,10 @@ void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
   v.number("difference_rms", both.difference_rms, unit::millidegree,
            "Of the difference between the boresight errors, sample by sample.", positive);
   v.number("ratio", both.ratio(), unit::ratio, "difference_rms over cvodes_boresight_rms.",
+           positive);
+  v.number("ratio_without_quantisation", both.ratio_without_quantisation, unit::ratio,
+           "The same without steps of encoder and tachometer, which turn rounding into other "
+           "readings; null unless ratio exceeds its limit.",
            positive);
   v.number("limit", design::integrator_agreement_limit, unit::ratio, "Of ratio.", known);
   v.number("cvodes_relative_tolerance", both.cvodes_relative_tolerance, unit::ratio,

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include "reference_nonlinear_antenna.hpp"
 #include <boresight/design/verification/integrator_agreement.hpp>
 #include <boresight/numerics/error.hpp>
@@ -70,6 +71,7 @@ TEST(IntegratorAgreement, HoldsWithFrictionBacklashLimitsAndQuantisation) {
   ASSERT_EQ(agreement.status, RunStatus::complete) << agreement.message;
   EXPECT_LT(agreement.ratio(), 1e-5);
   EXPECT_TRUE(agree(agreement));
+  EXPECT_FALSE(agreement.ratio_without_quantisation);
   EXPECT_NEAR(agreement.collocation_rms, agreement.cvodes_rms, agreement.difference_rms);
   EXPECT_GT(agreement.cvodes_rms, 0.1 * mdeg);
   EXPECT_NEAR(agreement.duration, 20.0, 2.0 * loop.sample_time);
@@ -102,7 +104,39 @@ TEST(IntegratorAgreement, FallsShortByLooseTolerances) {
   const auto loose = integrator_agreement(loop, course, options);
   EXPECT_GT(loose.ratio(), 100.0 * tight);
   EXPECT_FALSE(agree(loose));
+  // Encoder steps are not why.
+  ASSERT_TRUE(loose.ratio_without_quantisation);
+  EXPECT_GT(*loose.ratio_without_quantisation, integrator_agreement_limit);
   EXPECT_EQ(loose.cvodes_relative_tolerance, 1e-3);
+}
+
+// The encoder's difference from sample to sample, fed back, makes a jolt of the valve command of
+// each of its steps: where the two runs round a sample to different codes they part.
+TEST(IntegratorAgreement, TakesNoDifferenceByEncoderStepsForOneOfIntegration) {
+  plant::StateSpace states = *reference::lag_loops_as_state_space().structure.state_space();
+  const double rate_gain = 0.4 / states.sample_time;
+  const Index n = states.a.rows();
+  states.states.emplace_back("last encoder");
+  states.a.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, n + 1));
+  states.b.conservativeResizeLike(Eigen::MatrixXd::Zero(n + 1, 2));
+  states.b(n, 1) = 1.0;
+  states.c.conservativeResizeLike(Eigen::MatrixXd::Zero(1, n + 1));
+  states.c(0, n) = rate_gain;
+  states.d(0, 1) -= rate_gain;
+  SimulatedLoop loop = reference_loop();
+  loop.controller = control::state_space_controller("encoder rate", states);
+  loop.encoder_resolution = 3.4 * mdeg * loop.gear_ratio;
+  auto options = settling_for(5.0);
+  options.relative_tolerance = 1e-3;
+  options.absolute_tolerance = 1e-5;
+  const auto course = windy_course(loop, 25.0);
+  const auto stepped = integrator_agreement(loop, course, options);
+  EXPECT_GT(stepped.ratio(), 10.0 * integrator_agreement_limit);
+  ASSERT_TRUE(stepped.ratio_without_quantisation);
+  EXPECT_LT(*stepped.ratio_without_quantisation, 0.3 * integrator_agreement_limit);
+  EXPECT_TRUE(agree(stepped));
+  loop.encoder_resolution = 0.0;
+  EXPECT_LT(integrator_agreement(loop, course, options).ratio(), 0.3 * integrator_agreement_limit);
 }
 
 TEST(IntegratorAgreement, SameBitsAgain) {

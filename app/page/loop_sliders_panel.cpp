@@ -81,11 +81,12 @@ std::string loop_sliders_panel(std::string_view loop_json) {
       "<p class=\"note\">Linear plant, exact: the browser computes rms, stability, margins and "
       "step responses from the masses, springs and gains on this page, as the program does. Limit "
       "cycles, saturation and perturbed models are not included: run <code>boresight "
-      "commission</code> with the copied gains before loading them. The start is the controller of "
-      "this report.</p>\n";
-  return html +
-         fmt::format("<script type=\"application/json\" class=\"data\">{}</script>\n</div>\n",
-                     json_for_script(loop_json));
+      "commission</code> with the copied gains before loading them. The start is ";
+  return html + escaped_html(loop.at("structure").get<std::string>()) +
+         fmt::format(
+             " of this report.</p>\n<script type=\"application/json\" "
+             "class=\"data\">{}</script>\n</div>\n",
+             json_for_script(loop_json));
 }
 
 }  // namespace boresight::app

@@ -262,6 +262,13 @@ void describe(io::Visitor& v, const TuningSection& section) {
          "What the recommended controller was tuned for: the case's plant alone, or all of the "
          "ensemble.");
   v.object("design", section.design, "The controller recommended, by tune.");
+  v.optional_group("loops", section.loops,
+                   "Of a state space: the best loops with gains, with whose structure other "
+                   "antennas are tuned; null where the recommended controller has gains itself.",
+                   [&](const design::RecommendedDesign::Loops& loops) {
+                     v.text("structure", loops.structure, "As --structure takes it.");
+                     v.object("design", loops.design, "These loops.");
+                   });
   v.texts("ties", section.ties,
           "Other controllers whose simulated rms, limit cycle included, does not differ by more "
           "than 2 % or than the same winds leave open.");

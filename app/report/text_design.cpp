@@ -57,7 +57,7 @@ Document gains_part(const TuningSection& section) {
   const auto& controller = section.design.tuning.controller;
   if (controller.structure.state_space() != nullptr) {
     return wrapped(fmt::format("{}. Other interpretations and other flywheels are tuned with {}.",
-                               state_space_text(controller.structure), section.loops),
+                               state_space_text(controller.structure), section.loops->structure),
                    "  ");
   }
   const auto& descriptions = control::gain_descriptions(controller.structure);

@@ -3,20 +3,22 @@
 namespace boresight::design {
 
 std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended) {
-  if (recommended.design.tuning.status == TuningStatus::unstable ||
-      recommended.structure.state_space() != nullptr) {
-    return std::nullopt;
-  }
-  AdjustableLoop loop{recommended.name, recommended.design.tuning.controller, recommended.problem,
-                      recommended.goals};
+  const auto& beside = recommended.loops;
+  const TuningResult& tuning = (beside ? beside->design : recommended.design).tuning;
+  if (tuning.status == TuningStatus::unstable) return std::nullopt;
+  AdjustableLoop loop{beside ? beside->structure : recommended.name, tuning.controller,
+                      recommended.problem, recommended.goals};
   loop.problem.climate.clear();
   return loop;
 }
 
 std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study,
                                               const TunedController& row) {
-  if (!row.stable() || row.is_state_space()) return std::nullopt;
-  AdjustableLoop loop{row.structure, row.design.tuning.controller, study.problem, study.goals};
+  const TunedController* adjusted =
+      row.is_state_space() ? recommended_loops(study, row.wind_speed) : &row;
+  if (adjusted == nullptr || !adjusted->stable()) return std::nullopt;
+  AdjustableLoop loop{adjusted->structure, adjusted->design.tuning.controller, study.problem,
+                      study.goals};
   loop.problem.wind.mean_speed = row.wind_speed;
   loop.problem.climate.clear();
   return loop;

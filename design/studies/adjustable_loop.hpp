@@ -22,10 +22,12 @@ struct AdjustableLoop {
   Constraints goals;
 };
 
-/// The recommended controller of a redesign. None if that controller is not stable.
+/// The recommended controller of a redesign, or the loops beside it where it is a state space,
+/// which has no gains. None if that controller is not stable.
 std::optional<AdjustableLoop> adjustable_loop(const RecommendedDesign& recommended);
 
-/// A controller of a tuning study at its own wind speed. None if it is not stable.
+/// A controller of a tuning study at its own wind speed, or recommended_loops where it is a state
+/// space. None if these are not stable.
 std::optional<AdjustableLoop> adjustable_loop(const TuningStudy& study, const TunedController& row);
 
 }  // namespace boresight::design

@@ -292,7 +292,9 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
       result.time_domain ? result.time_domain->own().effect().for_budgets() : NonlinearEffect{};
   result.recommended =
       recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
-  if (best.is_state_space()) result.recommended.loops = loops.structure;
+  if (best.is_state_space()) {
+    result.recommended.loops = {loops.structure, loops.design};
+  }
   for (const auto* row : tied_with(study.tuned, best)) {
     result.recommended.ties.push_back(description_of(*row));
   }

@@ -38,8 +38,12 @@ struct RecommendedDesign {
   /// also at other wind speeds, with other wind models and on ensemble members. Without a
   /// simulation: no effect.
   NonlinearEffect effect;
-  /// Of a state space: the loop structure with which alternatives and flywheels are tuned instead.
-  std::string loops;
+  /// Of a state space: the best loops, with whose structure alternatives and flywheels are tuned.
+  struct Loops {
+    std::string structure;
+    Design design;
+  };
+  std::optional<Loops> loops;
   std::vector<std::string> ties;  // description_of other controllers that tied_with finds
   /// The antenna's present gains, evaluated on the same plant; where the mission states none, the
   /// controller of retuned_present.

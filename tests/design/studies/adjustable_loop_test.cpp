@@ -39,14 +39,27 @@ TEST(AdjustableLoop, IsNoneWithoutAStableController) {
   EXPECT_TRUE(adjustable_loop(recommended).has_value());
 }
 
-TEST(AdjustableLoop, IsNoneOfAStateSpaceWhichHasNoGains) {
+TEST(AdjustableLoop, IsThatOfTheLoopsBesideAStateSpaceWhichHasNoGains) {
   TunedController row = tuned_at(10.0);
+  row.structure = state_space_name;
   row.design.tuning.controller = {reference::lag_loops_as_state_space().structure, {}};
   EXPECT_FALSE(adjustable_loop(TuningStudy{}, row).has_value());
+  TuningStudy study;
+  study.problem = reference::tracking_problem();
+  study.wind_speeds = {10.0};
+  study.controllers = {tuned_at(10.0), row};
+  const auto beside = adjustable_loop(study, row);
+  ASSERT_TRUE(beside.has_value());
+  EXPECT_EQ(beside->structure, "PI");
+  EXPECT_EQ(beside->controller.gains, reference::cautious_gains().gains);
   RecommendedDesign recommended;
   recommended.design = row.design;
   recommended.structure = row.design.tuning.controller.structure;
-  EXPECT_FALSE(adjustable_loop(recommended).has_value());
+  recommended.loops = {"PI", tuned_at(10.0).design};
+  const auto of_redesign = adjustable_loop(recommended);
+  ASSERT_TRUE(of_redesign.has_value());
+  EXPECT_EQ(of_redesign->structure, "PI");
+  EXPECT_EQ(of_redesign->controller.gains, reference::cautious_gains().gains);
 }
 
 }  // namespace

@@ -147,6 +147,30 @@ TEST(RedesignCard, CountsUnstableModels) {
   EXPECT_THAT(line_of(report, "Recommended"), StartsWith("PI-0"));
 }
 
+TEST(RedesignCard, GivesTheFractionOfSampledPlantsBesideTheModels) {
+  Report report = report_of_test();
+  report.tuning->constraints_met = {0.902, 0.888, 0.915};
+  EXPECT_THAT(line_of(report, "Margins"), HasSubstr("; met on 30/30, 90 % of plants"));
+  report.tuning->constraints_met = {0.9995, 0.997, 1.0};
+  EXPECT_THAT(line_of(report, "Margins"), HasSubstr("; met on 30/30, 99.95 % of plants"));
+  report.tuning->constraints_met = {1.0, 0.998, 1.0};
+  EXPECT_THAT(line_of(report, "Margins"), HasSubstr("; met on 30/30, 100 % of plants"));
+}
+
+// A state space has one loop, no gains, and commands that must be shaped.
+TEST(RedesignCard, NamesTheBestLoopsBesideAStateSpace) {
+  Report report = report_of_test();
+  EXPECT_THAT(line_of(report, "Load"), Not(HasSubstr("best loops")));
+  EXPECT_THAT(line_of(report, "Margins"), Not(HasSubstr("at the valve")));
+  report.tuning->loops = {"FULL", report.tuning->design};
+  report.tuning->loops->design.boresight_rms = 0.75 * millidegree;
+  report.tuning->curves.emplace();
+  report.time_domain->result.slew.emplace().overshoot = 0.214 * millidegree;
+  EXPECT_THAT(line_of(report, "Load"), EndsWith("; best loops FULL, 0.750 mdeg linear"));
+  EXPECT_THAT(line_of(report, "Margins"), AllOf(HasSubstr(" (at the valve); overshoot "),
+                                                HasSubstr(" %, shaped slew 0.214 mdeg;")));
+}
+
 // Records leave less open than the case's ranges, but hold for the conditions of the tests only.
 TEST(RedesignCard, StatesInstabilityBeyondWhatRecordsLeaveOpen) {
   Report report = report_of_test();

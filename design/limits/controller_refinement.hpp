@@ -35,7 +35,7 @@ struct RefinementResult {
   int steps = 0;                                 // that counted
   std::optional<int> violations = std::nullopt;  // RefinementOptions::violations, if evaluated
   long evaluations = 0;                          // of all figures on all plants, with gradients
-  /// boresight_rms of the last step that met every constraint, which violations may have ruled out.
+  /// boresight_rms of the last step, which violations may have ruled out; of the start without one.
   double last_rms = 0.0;
 };
 

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <limits>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -64,7 +63,7 @@ constexpr double used_of_peak = 0.70, used_of_effort = 0.97;
 // N m s/rad: with so much friction the motor does not move.
 constexpr double locking_friction = 1e7;
 // Limits of the gain from encoder to motor torque with the motor locked, over
-// Standstill::breakaway_stiffness, of which the first that leaves no limit cycle counts: empirical.
+// Standstill::breakaway_stiffness, tried in this order: empirical.
 constexpr std::array<double, 2> locked_motor_gains{5.0, 4.0};
 // Bounds of a refined controller's poles. A slower pole would leave an error for minutes after a
 // slew; a less damped one would fit a resonance of one plant.
@@ -97,18 +96,24 @@ std::vector<std::span<const SampledSetting>> with_and_without(
   return result;
 }
 
+// What a condition may cost of the rms.
+constexpr double price = 0.05;
+
 // Nothing is left to gain by other conditions: no violations, and what it takes to have none costs
 // little rms.
 bool settled(const RefinementResult& result) {
-  constexpr double price = 0.05;
   return result.feasible && result.violations.value_or(0) == 0 &&
          result.boresight_rms < (1.0 + price) * result.last_rms;
 }
 
-// Feasible ones first, then those with the fewest violations, then by rms.
-std::tuple<bool, int, double> rank(const RefinementResult& result) {
-  return {!result.feasible, result.violations.value_or(std::numeric_limits<int>::max()),
-          result.boresight_rms};
+// Whether to take the result of fewer conditions: if it alone is feasible, has fewer violations, or
+// has less rms by more than their price.
+bool is_better(const RefinementResult& one, const RefinementResult& than) {
+  const auto rank = [](const RefinementResult& result) {
+    return std::pair(!result.feasible, result.violations.value_or(std::numeric_limits<int>::max()));
+  };
+  if (rank(one) != rank(than)) return rank(one) < rank(than);
+  return (1.0 + price) * one.boresight_rms < than.boresight_rms;
 }
 
 class Study {
@@ -230,7 +235,7 @@ class Study {
           for (const AtRest& at_rest : conditions_at_rest()) {
             if (found && settled(*found)) break;
             auto next = refined(start, corners, at_rest, options);
-            if (!next || (found && !(rank(*next) < rank(*found)))) continue;
+            if (!next || (found && !is_better(*next, *found))) continue;
             found = std::move(next);
             limit.refined_from = start_->name;
           }
@@ -379,7 +384,7 @@ class Study {
       if (!constraints.stable(start)) return std::nullopt;
       RefinementResult next = refine_controller(start, constraints, options);
       const bool done = !goals.locked_motor_gain || settled(next);
-      if (!best || rank(next) < rank(*best)) best = std::move(next);
+      if (!best || is_better(next, *best)) best = std::move(next);
       if (done) break;
     }
     return best;

@@ -87,20 +87,24 @@ Document wind_part(const TimeDomainSection& section) {
 Document integrators_part(const TimeDomainSection& section) {
   if (!section.result.integrators) return {};
   const design::IntegratorAgreement& both = *section.result.integrators;
-  const std::string verdict =
-      both.status == RunStatus::complete
-          ? fmt::format(
-                "{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e}){}; the "
-                "integration is {}confirmed",
-                mdeg(both.cvodes_rms), both.ratio(), design::integrator_agreement_limit,
-                both.ratio_without_quantisation
-                    ? fmt::format(
-                          ", without encoder steps, which amplify rounding, by {:.0e}; with "
-                          "them the first integrator has {} mdeg",
-                          *both.ratio_without_quantisation, mdeg(both.collocation_rms))
-                    : std::string(),
-                design::agree(both) ? "" : "NOT ")
-          : "no check, " + ended(both.status, both.message);
+  const auto& smooth = both.ratio_without_quantisation;
+  std::string verdict = "no check, " + ended(both.status, both.message);
+  if (both.status == RunStatus::complete) {
+    verdict = fmt::format(
+        "{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e}){}; the integration is "
+        "{}confirmed",
+        mdeg(both.cvodes_rms), both.ratio(), design::integrator_agreement_limit,
+        smooth ? fmt::format(", with white noise instead of encoder and tachometer steps by {:.0e}",
+                             *smooth)
+               : "",
+        design::agree(both) ? "" : "NOT ");
+    if (smooth && design::agree(both)) {
+      verdict += fmt::format(
+          ", and the loop amplifies rounding at the steps: with them the first integrator has {} "
+          "mdeg",
+          mdeg(both.collocation_rms));
+    }
+  }
   return wrapped(fmt::format("Second integrator, CVODES: {}.", verdict), "  ", "  ");
 }
 

@@ -40,9 +40,10 @@ struct IntegratorAgreement {
 
   /// difference_rms over cvodes_rms; NaN unless complete.
   double ratio() const { return difference_rms / cvodes_rms; }
-  /// The same of two more runs without steps of encoder and tachometer, where ratio() exceeds the
-  /// limit: a step turns rounding into another reading, and in a loop that amplifies it the two
-  /// runs part, however well each is integrated.
+  /// The same of two more runs with white noise instead of steps of encoder and tachometer, where
+  /// ratio() exceeds the limit; none if one did not complete. Rounding decides which code a sample
+  /// at an edge is read as; a loop of high gain amplifies that, and the runs part, however well
+  /// each is integrated.
   std::optional<double> ratio_without_quantisation = std::nullopt;
 };
 

@@ -18,7 +18,8 @@ LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
                                  const NonlinearVerificationOptions& options, double rate,
                                  std::size_t start);
 
-/// The same, with a limit cycle confirmed: the run limit_cycle_confirmation times as long instead.
+/// limit_cycle_run; if it shows a limit cycle, instead the run limit_cycle_confirmation times as
+/// long. @throws as run_loop.
 LimitCycleResult confirmed_limit_cycle_run(const SimulatedLoop& loop,
                                            const NonlinearVerificationOptions& options, double rate,
                                            std::size_t start);

@@ -31,9 +31,9 @@ struct LimitCyclesWithFriction {
 
 /// Searches for limit cycles (confirmed_limit_cycle_run) with each friction, at rest and then at
 /// the options' tracking rate if that is not 0. The loop's feedforward keeps the friction of
-/// `loop`. Each friction takes 6 runs, some 0.8 s of computing on the 70-m antenna, and three times
-/// that for each with a limit cycle, over options.threads; the result does not depend on them.
-/// @throws as run_loop.
+/// `loop`. Each friction takes 6 runs, some 0.8 s of computing on the 70-m antenna; those with a
+/// limit cycle take four times as long. They run over options.threads, on which the result does not
+/// depend. @throws as run_loop.
 std::vector<LimitCyclesWithFriction> limit_cycles_by_friction(
     const SimulatedLoop& loop, std::span<const FrictionVariation> frictions,
     const NonlinearVerificationOptions& options);

@@ -80,10 +80,11 @@ void describe_integrators(Visitor& v, const design::IntegratorAgreement& both) {
            "Of the difference between the boresight errors, sample by sample.", positive);
   v.number("ratio", both.ratio(), unit::ratio, "difference_rms over cvodes_boresight_rms.",
            positive);
-  v.number("ratio_without_quantisation", both.ratio_without_quantisation, unit::ratio,
-           "The same without steps of encoder and tachometer, which turn rounding into other "
-           "readings; null unless ratio exceeds its limit.",
-           positive);
+  v.number(
+      "ratio_without_quantisation", both.ratio_without_quantisation, unit::ratio,
+      "The same with white noise instead of steps of encoder and tachometer; null unless ratio "
+      "exceeds its limit, or if such a run did not complete.",
+      positive);
   v.number("limit", design::integrator_agreement_limit, unit::ratio, "Of ratio.", known);
   v.number("cvodes_relative_tolerance", both.cvodes_relative_tolerance, unit::ratio,
            "Of each step of CVODES.", known);

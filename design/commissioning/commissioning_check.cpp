@@ -204,7 +204,7 @@ void StageObserver::observe_recorder(const StageController& stage, StageObservat
     windy[0] += power * std::norm(plant.encoder_wind + plant.encoder_command * by_wind);
     windy[1] += power * std::norm(plant.tachometer_wind + plant.tachometer_command * by_wind);
     windy[2] += power * std::norm(plant.torque_wind + plant.torque_command * by_wind);
-    windy[3] += power * std::norm(by_wind);
+    windy[3] += power * std::norm(by_wind) * control::sample_density(stage.controller, w);
   }
   const auto rms = [](const std::array<double, 4>& power) {
     return RecordedRms{std::sqrt(power[0]), std::sqrt(power[1]), std::sqrt(power[2]),

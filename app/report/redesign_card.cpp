@@ -14,6 +14,7 @@
 #include <boresight/app/redesign/needed_budgets.hpp>
 #include <boresight/app/redesign/next_test.hpp>
 #include <boresight/app/report/influences.hpp>
+#include <boresight/app/report/margins_line.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/redesign_card.hpp>
 #include <boresight/app/report/text_state_space.hpp>
@@ -61,11 +62,6 @@ bool inertias_agree(const Report& report) {
 design::PlantBasis plant_basis(const Report& report) {
   if (!report.campaign) return design::PlantBasis::drawings;
   return report.campaign->grey_box ? design::PlantBasis::records : design::PlantBasis::failed_fit;
-}
-
-std::size_t unstable_members(const TuningSection& section) {
-  if (!section.ensemble) return 0;
-  return section.ensemble->members.size() - static_cast<std::size_t>(section.ensemble->stable);
 }
 
 std::size_t members_beyond_constraints(const TuningSection& section) {
@@ -153,9 +149,12 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
     gains.push_back(state_space_text(controller.structure));
   }
   const std::string beside =
-      section.loops ? fmt::format("; best loops {}, {} mdeg linear", section.loops->structure,
-                                  mdeg(section.loops->design.boresight_rms))
-                    : "";
+      section.loops
+          ? fmt::format(
+                "; best loops {}, {} mdeg{}", section.loops->structure,
+                mdeg(section.loops->simulated_rms.value_or(section.loops->design.boresight_rms)),
+                section.loops->simulated_rms ? "" : " linear")
+          : "";
   const bool fit = section.fitness == design::Fitness::fit;
   const bool sure = confidence(report, section).grade != Confidence::low;
   return {!fit    ? "Do not load"
@@ -284,55 +283,6 @@ CardLine budget_line(const TuningSection& section, const BudgetDetail& detail) {
           budgets.empty() ? "the case states none ([[pointing.budget]])"
                           : fmt::format("{}", fmt::join(budgets, "; ")),
           std::string(loops)};
-}
-
-// "; met on 30/30, 90 % of plants": of the ensemble, and of sampled plants.
-std::string constraints_text(const TuningSection& section) {
-  if (!section.ensemble) return "";
-  std::string text = fmt::format("; met on {}/{}", section.ensemble->within_constraints,
-                                 section.ensemble->members.size());
-  if (section.constraints_met) {
-    const double fraction = section.constraints_met->value;
-    text += fmt::format(", {:.{}f} % of plants", 100.0 * fraction,
-                        fraction > 0.99 && fraction < 1.0 ? 2 : 0);
-  } else {
-    text += " models";
-  }
-  if (const std::size_t unstable = unstable_members(section); unstable > 0) {
-    text += fmt::format(", {} UNSTABLE", unstable);
-  }
-  return text;
-}
-
-// Of a step of the command. A state space needs shaped commands, and has what remains then as well.
-std::string overshoot_text(const Report& report, const TuningSection& section) {
-  if (!section.curves) return "";
-  std::string text =
-      fmt::format("; overshoot {:.0f} %", 100.0 * section.curves->position_step.overshoot());
-  if (section.loops && simulated(report) && report.time_domain->result.slew) {
-    text += fmt::format(", shaped slew {} mdeg", mdeg(report.time_domain->result.slew->overshoot));
-  }
-  return text;
-}
-
-CardLine stability_line(const Report& report, const TuningSection& section) {
-  const auto& design = section.design;
-  double peak = 0.0, phase = 180.0, gain = HUGE_VAL;
-  for (const auto& one : design.verification.peaks) peak = std::max(peak, one.upper);
-  for (const auto& margins : design.margins) {
-    phase = std::min(phase, margins.phase_margin_deg);
-    gain = std::min(gain, margins.increasing_gain_margin);
-  }
-  std::string text = fmt::format("Ms {:.2f}, PM {:.0f} deg", peak, phase);
-  if (std::isfinite(gain)) text += fmt::format(", GM {:.1f} dB", 20.0 * std::log10(gain));
-  // A state space has no loop to cut but the one at the valve.
-  if (section.loops) text += " (at the valve)";
-  text += overshoot_text(report, section) + constraints_text(section);
-  if (section.instability) {
-    text += fmt::format("; {:.2g} % unstable over the case's ranges (95 %: at most {:.2g} %)",
-                        100.0 * section.instability->value, 100.0 * section.instability->upper);
-  }
-  return {"Margins", text, std::string(loops)};
 }
 
 CardLine limit_cycle_line(const TimeDomainSection& section) {
@@ -470,7 +420,7 @@ std::vector<CardLine> card_with_budgets(const Report& report, const BudgetDetail
     card.push_back(pointing_line(report, section));
     card.push_back(present_line(report, section));
     card.push_back(budget_line(section, budgets));
-    card.push_back(stability_line(report, section));
+    card.push_back(margins_line(report));
     if (report.time_domain) card.push_back(limit_cycle_line(*report.time_domain));
   }
   if (report.matching) card.push_back(flywheel_line(*report.matching));

@@ -268,6 +268,8 @@ void describe(io::Visitor& v, const TuningSection& section) {
                    [&](const design::RecommendedDesign::Loops& loops) {
                      v.text("structure", loops.structure, "As --structure takes it.");
                      v.object("design", loops.design, "These loops.");
+                     v.number("simulated_rms", loops.simulated_rms, unit::millidegree,
+                              "On the nonlinear antenna; null if not simulated.", positive);
                    });
   v.texts("ties", section.ties,
           "Other controllers whose simulated rms, limit cycle included, does not differ by more "

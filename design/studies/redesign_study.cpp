@@ -100,10 +100,10 @@ void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
 }
 
 // The figures of a design that was tuned over the climate, at one wind speed as everywhere here.
-void at_one_speed(RecommendedDesign& section) {
-  auto evaluated = assess(section.problem, section.design.tuning.controller, section.goals);
-  evaluated.tuning = std::move(section.design.tuning);
-  section.design = std::move(evaluated);
+void at_one_speed(const RecommendedDesign& section, Design& design) {
+  auto evaluated = assess(section.problem, design.tuning.controller, section.goals);
+  evaluated.tuning = std::move(design.tuning);
+  design = std::move(evaluated);
 }
 
 RecommendedDesign recommended_design(const Mission& mission, const TunedController& row,
@@ -135,7 +135,7 @@ RecommendedDesign recommended_design(const Mission& mission, const TunedControll
         {controller.structure.name(), assess(section.problem, controller, section.goals)});
   }
   if (row.stable()) {
-    if (mission.minimises_climate) at_one_speed(section);
+    if (mission.minimises_climate) at_one_speed(section, section.design);
     evaluate_in_wind(mission, section);
     section.trade = row.trade;
   }
@@ -293,7 +293,9 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
   result.recommended =
       recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
   if (best.is_state_space()) {
-    result.recommended.loops = {loops.structure, loops.design};
+    auto& beside = result.recommended.loops.emplace(loops.structure, loops.design);
+    if (mission.minimises_climate) at_one_speed(result.recommended, beside.design);
+    if (loops.in_time) beside.simulated_rms = loops.in_time->rms();
   }
   for (const auto* row : tied_with(study.tuned, best)) {
     result.recommended.ties.push_back(description_of(*row));

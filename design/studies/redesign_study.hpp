@@ -41,7 +41,9 @@ struct RecommendedDesign {
   /// Of a state space: the best loops, with whose structure alternatives and flywheels are tuned.
   struct Loops {
     std::string structure;
-    Design design;
+    Design design;  // at design_speed
+    /// Over several records of wind, or in one (rad); none where they were not simulated.
+    std::optional<double> simulated_rms = std::nullopt;
   };
   std::optional<Loops> loops;
   std::vector<std::string> ties;  // description_of other controllers that tied_with finds

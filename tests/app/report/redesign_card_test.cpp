@@ -167,8 +167,12 @@ TEST(RedesignCard, NamesTheBestLoopsBesideAStateSpace) {
   report.tuning->curves.emplace();
   report.time_domain->result.slew.emplace().overshoot = 0.214 * millidegree;
   EXPECT_THAT(line_of(report, "Load"), EndsWith("; best loops FULL, 0.750 mdeg linear"));
+  report.tuning->loops->simulated_rms = 0.8 * millidegree;
+  EXPECT_THAT(line_of(report, "Load"), EndsWith("; best loops FULL, 0.800 mdeg"));
   EXPECT_THAT(line_of(report, "Margins"), AllOf(HasSubstr(" (at the valve); overshoot "),
-                                                HasSubstr(" %, shaped slew 0.214 mdeg;")));
+                                                HasSubstr(" %, after a shaped slew 0.214 mdeg;")));
+  report.time_domain->result.slew->status = design::RunStatus::lost;
+  EXPECT_THAT(line_of(report, "Margins"), Not(HasSubstr("shaped slew")));
 }
 
 // Records leave less open than the case's ranges, but hold for the conditions of the tests only.

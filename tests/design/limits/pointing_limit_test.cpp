@@ -308,6 +308,56 @@ TEST(PointingLimit, TheRefinedLimitsTheGainOnALockedMotor) {
   EXPECT_GT(refined([](double found) { return found < 1.01 * 5.0; }), 1.01 * 5.0);
 }
 
+// Freedom from violations that the limited gain has at a high price only counts less than what is
+// free of them without that limit.
+TEST(PointingLimit, TheRefinedGivesUpAConditionThatCostsTooMuch) {
+  const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
+  const TrackingProblem problem = problem_with_torque_noise();
+  const auto setting = [&](double friction) {
+    plant::AntennaPlant plant = problem.plant;
+    plant.drive.viscous_friction = friction;
+    return SampledSetting("plant", plant, fit_wind_filter(problem), problem.noise, 0.02,
+                          plant::frequency_grid(plant, 1e-3, 24.9, 100));
+  };
+  const SampledSetting nominal = setting(problem.plant.drive.viscous_friction);
+  const SampledSetting locked = setting(1e7);
+  const auto gain = [&](const plant::StateSpace& controller) {
+    return locked
+        .highest_locked_motor_gain(
+            SampledSetting::controller_response(controller, locked.frequency()))
+        .magnitude;
+  };
+  const plant::StateSpace start =
+      control::sampled_loop(nominal.problem().plant, reference::lag_loops(), 0.02).controller;
+  const double stiffness = 0.9 * gain(start) / 5.0;
+  Constraints standing;
+  standing.standstill = Standstill{3.0, {100.0}, {}, stiffness};
+  const auto refined = [&](const CountViolations& violations) {
+    return pointing_limit(problem, standing, members, {},
+                          {.threads = 2,
+                           .start = DescribedController{"lags", reference::lag_loops()},
+                           .violations = violations})
+        .refined.value()
+        .controller;
+  };
+  const double least =
+      nominal.boresight_rms(refined([](const plant::StateSpace&, int) { return 0; }));
+  // With the gain limited, only steps of so much rms are free of violations.
+  const auto gain_of_result = [&](double price) {
+    int free_at_that_price = 0;
+    const auto found = refined([&](const plant::StateSpace& one, int) {
+      if (gain(one) > 1.01 * 5.0 * stiffness) return 0;
+      if (nominal.boresight_rms(one) < price * least) return 1;
+      ++free_at_that_price;
+      return 0;
+    });
+    EXPECT_GT(free_at_that_price, 0) << price;
+    return gain(found) / stiffness;
+  };
+  EXPECT_LT(gain_of_result(1.02), 1.002 * 5.0);
+  EXPECT_GT(gain_of_result(1.10), 1.01 * 5.0);
+}
+
 // Friction slopes of the constraint, and larger ones up to ten times.
 TEST(PointingLimit, TheRobustifiedIsStableWhileFrictionHoldsTheMotor) {
   const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};

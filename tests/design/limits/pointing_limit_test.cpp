@@ -269,6 +269,11 @@ TEST(PointingLimit, TheRefinedKeepsItsMarginsAtTheEncoderToo) {
   EXPECT_GT(poles.damping, 0.048);
 }
 
+double locked_motor_gain(const SampledSetting& locked, const plant::StateSpace& controller) {
+  const auto response = SampledSetting::controller_response(controller, locked.frequency());
+  return locked.highest_locked_motor_gain(response).magnitude;
+}
+
 // To less where violations remain, and not at all where they still do.
 TEST(PointingLimit, TheRefinedLimitsTheGainOnALockedMotor) {
   const std::vector<EnsembleMember> members{{"fast structure", with_structure_frequencies(1.05)}};
@@ -279,10 +284,7 @@ TEST(PointingLimit, TheRefinedLimitsTheGainOnALockedMotor) {
   const SampledSetting locked("locked", plant, fit_wind_filter(problem), problem.noise, 0.02,
                               plant::frequency_grid(plant, 1e-3, 24.9, 100));
   const auto gain = [&](const plant::StateSpace& controller) {
-    return locked
-        .highest_locked_motor_gain(
-            SampledSetting::controller_response(controller, locked.frequency()))
-        .magnitude;
+    return locked_motor_gain(locked, controller);
   };
   const plant::StateSpace start =
       control::sampled_loop(locked.problem().plant, loops.controller, 0.02).controller;
@@ -322,10 +324,7 @@ TEST(PointingLimit, TheRefinedGivesUpAConditionThatCostsTooMuch) {
   const SampledSetting nominal = setting(problem.plant.drive.viscous_friction);
   const SampledSetting locked = setting(1e7);
   const auto gain = [&](const plant::StateSpace& controller) {
-    return locked
-        .highest_locked_motor_gain(
-            SampledSetting::controller_response(controller, locked.frequency()))
-        .magnitude;
+    return locked_motor_gain(locked, controller);
   };
   const plant::StateSpace start =
       control::sampled_loop(nominal.problem().plant, reference::lag_loops(), 0.02).controller;

@@ -87,25 +87,26 @@ Document wind_part(const TimeDomainSection& section) {
 Document integrators_part(const TimeDomainSection& section) {
   if (!section.result.integrators) return {};
   const design::IntegratorAgreement& both = *section.result.integrators;
-  const auto& smooth = both.ratio_without_quantisation;
-  std::string verdict = "no check, " + ended(both.status, both.message);
-  if (both.status == RunStatus::complete) {
-    verdict = fmt::format(
-        "{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e}){}; the integration is "
-        "{}confirmed",
-        mdeg(both.cvodes_rms), both.ratio(), design::integrator_agreement_limit,
-        smooth ? fmt::format(", with white noise instead of encoder and tachometer steps by {:.0e}",
-                             *smooth)
-               : "",
-        design::agree(both) ? "" : "NOT ");
-    if (smooth && design::agree(both)) {
-      verdict += fmt::format(
-          ", and the loop amplifies rounding at the steps: with them the first integrator has {} "
-          "mdeg",
-          mdeg(both.collocation_rms));
-    }
+  const auto told = [](const std::string& verdict) {
+    return wrapped("Second integrator, CVODES: " + verdict, "  ", "  ");
+  };
+  if (both.status != RunStatus::complete) {
+    return told("no check, " + ended(both.status, both.message) + ".");
   }
-  return wrapped(fmt::format("Second integrator, CVODES: {}.", verdict), "  ", "  ");
+  const std::string_view confirmed = design::agree(both) ? "confirmed" : "NOT confirmed";
+  const std::string difference =
+      fmt::format("{} mdeg in this wind, differs by {:.0e} of the rms (limit {:.0e})",
+                  mdeg(both.cvodes_rms), both.ratio(), design::integrator_agreement_limit);
+  const auto& smooth = both.ratio_without_quantisation;
+  if (!smooth) return told(fmt::format("{}; the integration is {}.", difference, confirmed));
+  std::string text = fmt::format(
+      "{}; the first integrator has {} mdeg. With white noise instead of encoder and tachometer "
+      "steps they differ by {:.0e}; the integration is {}.",
+      difference, mdeg(both.collocation_rms), *smooth, confirmed);
+  if (design::agree(both)) {
+    text += " The rest is rounding, which decides how a sample at the edge of a step is read.";
+  }
+  return told(text);
 }
 
 Document static_part(const TimeDomainSection& section) {

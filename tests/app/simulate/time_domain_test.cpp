@@ -261,7 +261,7 @@ TEST(TimeDomain, StatesWhetherASecondIntegratorConfirmsTheRun) {
   EXPECT_THAT(conclude(checked), HasSubstr("Do not rely on the simulated rms: CVODES, a second "
                                            "integrator, differs from it by 2 %."));
   both.ratio_without_quantisation = 2e-6;
-  EXPECT_THAT(told(checked), HasSubstr("steps by 2e-06; the integration is confirmed, and"));
+  EXPECT_THAT(told(checked), HasSubstr("differ by 2e-06; the integration is confirmed. The"));
   EXPECT_EQ(conclude(checked).find("CVODES"), std::string::npos);
   both.status = design::RunStatus::lost;
   EXPECT_THAT(conclude(checked), HasSubstr("a second integrator, loses the target."));

@@ -89,6 +89,13 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
   return result;
 }
 
+// That confirms a limit cycle.
+LimitCycleResult longer_run(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
+                            double rate, std::size_t start) {
+  return watch(loop, options, rate, nudges.at(start),
+               limit_cycle_confirmation * options.limit_cycle_duration);
+}
+
 // Of the runs at one rate; the first of those alike.
 std::size_t worst_of(std::span<const LimitCycleResult> runs) {
   const auto rank = [](const LimitCycleResult& run) {
@@ -115,9 +122,7 @@ LimitCycleResult confirmed_limit_cycle_run(const SimulatedLoop& loop,
                                            const NonlinearVerificationOptions& options, double rate,
                                            std::size_t start) {
   LimitCycleResult run = limit_cycle_run(loop, options, rate, start);
-  if (!run.limit_cycle) return run;
-  return watch(loop, options, rate, nudges.at(start),
-               limit_cycle_confirmation * options.limit_cycle_duration);
+  return run.limit_cycle ? longer_run(loop, options, rate, start) : run;
 }
 
 LimitCycleResult confirmed_limit_cycle(const SimulatedLoop& loop,
@@ -127,8 +132,7 @@ LimitCycleResult confirmed_limit_cycle(const SimulatedLoop& loop,
   std::size_t place = worst_of(runs);
   while (runs[place].limit_cycle && !again.at(place)) {
     again.at(place) = true;
-    runs[place] = watch(loop, options, rate, nudges.at(place),
-                        limit_cycle_confirmation * options.limit_cycle_duration);
+    runs[place] = longer_run(loop, options, rate, place);
     place = worst_of(runs);
   }
   LimitCycleResult worst = runs[place];

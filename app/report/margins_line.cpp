@@ -31,7 +31,7 @@ std::string constraints_text(const TuningSection& section) {
   return text;
 }
 
-// Of a step of the command. A state space needs shaped commands, and has what remains then as well.
+// Of an unshaped step; of a state space, which needs shaped commands, also of a shaped slew.
 std::string overshoot_text(const Report& report, const TuningSection& section) {
   if (!section.curves) return "";
   std::string text =

@@ -101,7 +101,7 @@ constexpr double price = 0.05;
 
 // Nothing is left to gain by other conditions: no violations, and what it takes to have none costs
 // little rms.
-bool settled(const RefinementResult& result) {
+bool is_settled(const RefinementResult& result) {
   return result.feasible && result.violations.value_or(0) == 0 &&
          result.boresight_rms < (1.0 + price) * result.last_rms;
 }
@@ -233,7 +233,7 @@ class Study {
         // tests corners. Without them another step may have no violations.
         for (const auto corners : with_and_without(corners_)) {
           for (const AtRest& at_rest : conditions_at_rest()) {
-            if (found && settled(*found)) break;
+            if (found && is_settled(*found)) break;
             auto next = refined(start, corners, at_rest, options);
             if (!next || (found && !is_better(*next, *found))) continue;
             found = std::move(next);
@@ -383,7 +383,7 @@ class Study {
           goals, threads_);
       if (!constraints.stable(start)) return std::nullopt;
       RefinementResult next = refine_controller(start, constraints, options);
-      const bool done = !goals.locked_motor_gain || settled(next);
+      const bool done = !goals.locked_motor_gain || is_settled(next);
       if (!best || is_better(next, *best)) best = std::move(next);
       if (done) break;
     }

@@ -94,12 +94,12 @@ struct PointingLimit {
   /// Standstill::breakaway_stiffness, or 4 times where a step without violations has over 5 % more
   /// rms than the last step, or none is without; and bounds of the poles. Where the start is
   /// unstable on the edges, no step meets all of these, or 4 times does not help either, the edges
-  /// are left out, then the limit of that gain too. If no step meets them then either, the same is
-  /// tried without corners. Of the steps evaluated it has the fewest
-  /// PointingLimitOptions::violations, then the least rms. If no start is given, or it has
-  /// integrals or is unstable somewhere, it starts from the robustified LQG, under that one's
-  /// constraints. None without members, with neither start, where poles are repeated, and where no
-  /// step meets every constraint.
+  /// are left out, then the limit of that gain too: for a result with fewer
+  /// PointingLimitOptions::violations, or over 5 % less rms. If no step meets them then either, the
+  /// same is tried without corners. If no start is given, or it has integrals or is unstable
+  /// somewhere, it starts from the robustified LQG, under that one's constraints. None without
+  /// members, with neither start, where poles are repeated, and where no step meets every
+  /// constraint.
   std::optional<SampledDesign> refined;
   /// Where it starts: the name of PointingLimitOptions::start, or "robust LQG"; empty without it.
   std::string refined_from;

@@ -13,7 +13,7 @@
 namespace boresight::design {
 namespace {
 
-// Peaks are interpolated between frequencies: what that can miss is kept in hand.
+// Peaks are interpolated between frequencies, to 2e-4, at the edges of encoder codes to 3e-3.
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
 

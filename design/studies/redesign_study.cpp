@@ -294,7 +294,9 @@ RedesignStudy redesign(const Mission& mission, const PlantEnsemble& ensemble,
       recommended_design(mission, best, effect, task.seed, {designs.begin(), first_alternative});
   if (best.is_state_space()) {
     auto& beside = result.recommended.loops.emplace(loops.structure, loops.design);
-    if (mission.minimises_climate) at_one_speed(result.recommended, beside.design);
+    if (mission.minimises_climate && loops.stable()) {
+      at_one_speed(result.recommended, beside.design);
+    }
     if (loops.in_time) beside.simulated_rms = loops.in_time->rms();
   }
   for (const auto* row : tied_with(study.tuned, best)) {

@@ -1,5 +1,5 @@
-// Tunes rate and position PI with a lag for the least pointing error in wind, with every
-// sensitivity peak at most 2, and prints gains, margins and what limits the result.
+// Tunes rate and position PI with a lag for the least pointing error in wind, with
+// maximum sensitivities of at most 2, and prints gains, margins and active constraints.
 #include <cmath>
 #include <cstdio>
 

@@ -265,7 +265,8 @@ TuningResult tune(const TrackingProblem& problem, const control::LoopStructure& 
   EnsembleSearch ensemble(plants, structure, goals, options);
   std::optional<FixedController> chosen;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // A search that did not carry what limits a warm start would leave it for the nominal optimum.
+    // Without the active constraints of a warm start the search would leave it for the nominal
+    // optimum.
     constexpr std::size_t max_active = 8;
     const bool warm = i < options.warm_starts.size();
     const auto held =

@@ -82,7 +82,7 @@ TEST(NonlinearVerification, CoulombFrictionAndIntegralActionLimitCycleAsTheDescr
       EXPECT_TRUE(limit_cycles.limit_cycle) << corner;
       EXPECT_EQ(limit_cycles.starts, limit_cycle_starts);
       EXPECT_EQ(limit_cycles.starts_with_limit_cycle, limit_cycle_starts)
-          << "the cycle draws in all";
+          << "the limit cycle attracts all starts";
       EXPECT_FALSE(limit_cycles.some_only());
       EXPECT_NEAR(limit_cycles.persistence, 1.0, 0.1);
       EXPECT_NEAR(limit_cycles.encoder_amplitude * problem.gear_ratio / predicted.encoder_amplitude,

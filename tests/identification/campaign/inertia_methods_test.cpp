@@ -149,7 +149,7 @@ TEST(IdentifyInertia, LeavesOutMethodsWithoutEvidence) {
 }
 
 TEST(IdentifyInertia, BoundsTheRatioOfAnInertiaNearTheMotorsFromBelowOnly) {
-  // Motors 1.2028, inertia 1.25 +- 0.06: a fifth of the draws lie below the motors' own.
+  // Motors 1.2028, inertia 1.25 +- 0.06: a fifth of the samples lies below the motors' own.
   DriveEvidence near = evidence();
   near.impulse = {{"near", {1.25, 0.06}}};
   const auto ratio = identify_inertia(near).methods.back().motor_to_load_ratio;

@@ -11,7 +11,7 @@ namespace {
 
 using Channel = ScaleConflict::Channel;
 
-/// Records whose rate is a share of both commands, which lose more of it in some than in others.
+/// Records whose rate is a fraction of both commands, a smaller one in some than in others.
 std::vector<DriveRecord> records() {
   std::vector<DriveRecord> all;
   for (const double fraction : {0.6, 0.8, 0.9, 1.0}) {

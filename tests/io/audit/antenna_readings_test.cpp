@@ -118,7 +118,7 @@ TEST(AntennaReadings, KeepTheLeakageOfTheOtherConvention) {
   EXPECT_TRUE(reading_of(antenna, "inertia from resonance, no efficiencies").contradicts);
 }
 
-// The 70-m antenna: all shares assumed, the third mode's beam weight below 0.
+// The 70-m antenna: all fractions assumed, the third mode's `beam_weight` below 0.
 Case guessing_antenna() {
   return read_case(case_path("dss14-70m"));
 }
@@ -137,7 +137,7 @@ TEST(AntennaReadings, TakeOtherSharesOfGuessesOnly) {
   EXPECT_THAT(share_readings(guessing_antenna()),
               testing::ElementsAre("wind and boresight fractions as inertia",
                                    "wind and boresight fractions all at one"));
-  // None where no share is a guess, and not the case's own again.
+  // None where no fraction is assumed, and not the case's own again.
   Case known = guessing_antenna(), own = guessing_antenna();
   const auto fractions = [](Case& antenna) {
     std::vector<Quantity*> all{&antenna.structure->bull_gear_wind_fraction,

@@ -8,7 +8,7 @@
 namespace boresight::io {
 namespace {
 
-// The 70-m antenna: all shares assumed, the third mode's beam weight below 0.
+// The 70-m antenna: all fractions assumed, the third mode's `beam_weight` below 0.
 Case guessing_antenna() {
   return read_case(case_path("dss14-70m"));
 }

@@ -50,7 +50,7 @@ TEST(PlantDistribution, OfRangesKeepsToThem) {
 }
 
 TEST(PlantDistribution, FractionsAreThoseOfTheSamples) {
-  // A quarter of the draws lies below what stands at the share 0.25, of every input.
+  // Of every input a quarter of the samples lies below the value at the fraction 0.25.
   const auto distribution = design::PlantDistribution::of_ranges(mission_of(reference()));
   const auto quarter =
       distribution.at_fractions(std::vector<double>(distribution.inputs().size(), 0.25));

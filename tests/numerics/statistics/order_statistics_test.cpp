@@ -42,7 +42,7 @@ TEST(Quantile, LiesStraightBetweenNeighbours) {
 }
 
 TEST(RankBelowQuantile, IsThatOfTheBinomialTable) {
-  // W. J. Conover, Practical Nonparametric Statistics: of 99 draws the 40th bounds the median.
+  // W. J. Conover, Practical Nonparametric Statistics: of 99 samples the 40th bounds the median.
   EXPECT_EQ(rank_below_quantile(99, 0.5, 0.025), 39);
   // Of five the least lies above the median once in 32 times.
   EXPECT_EQ(rank_below_quantile(5, 0.5, 0.025), -1);

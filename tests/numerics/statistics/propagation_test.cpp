@@ -43,7 +43,7 @@ TEST(Propagate, IntervalOfAProductIsTheLogNormalOne) {
   options.random_samples = 200000;
   const auto result = numerics::propagate(inputs, {{"product", product}}, options)[0];
   const double spread = std::hypot(0.05, 2.0 * 0.08);
-  // Standard error of a 97.5 % quantile of n normal draws: sqrt(p(1-p)/n)/density.
+  // Standard error of a 97.5 % quantile of n normal samples: sqrt(p(1-p)/n)/density.
   const double error = std::sqrt(0.025 * 0.975 / options.random_samples) / 0.0584 * spread;
   EXPECT_NEAR(std::log(result.lower / result.value), -z * spread, 4.0 * error);
   EXPECT_NEAR(std::log(result.upper / result.value), z * spread, 4.0 * error);
@@ -89,7 +89,7 @@ TEST(Propagate, OfAReciprocalFarFromItsPoleIsThatOfTheQuotient) {
   const auto results = numerics::propagate({{"x", 4.0, 0.2}}, targets);
   EXPECT_NEAR(results[0].value, results[1].value, 1e-15);
   EXPECT_NEAR(results[0].standard_uncertainty, results[1].standard_uncertainty, 1e-9);
-  // Quantiles of 1/x and 1/quantiles of x interpolate between the same draws.
+  // Quantiles of 1/x and 1/quantiles of x interpolate between the same samples.
   EXPECT_NEAR(results[0].lower / results[1].lower, 1.0, 1e-5);
   EXPECT_NEAR(results[0].upper / results[1].upper, 1.0, 1e-5);
   EXPECT_EQ(results[1].beyond_pole, 0.0);

@@ -56,12 +56,14 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   if (!arguments.structures.empty()) {
     options.structures = structure_option(antenna, arguments.structures);
   }
-  if (arguments.no_limit &&
-      (options.structures.empty() ? io::asked_structures(antenna) : options.structures)
-          .state_space) {
-    throw InvalidInput(
-        "tune: expected either --no-limit or the structure SS, whose design comes from the limit, "
-        "found both");
+  if (arguments.no_limit) {
+    if (options.structures.empty()) options.structures = io::asked_structures(antenna);
+    if (options.structures.state_space_named) {
+      throw InvalidInput(
+          "tune: expected either --no-limit or the structure SS, whose design comes from the limit, "
+          "found both");
+    }
+    options.structures.state_space = false;
   }
   arguments.outputs.require_writable();
 

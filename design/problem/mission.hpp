@@ -31,6 +31,8 @@ struct CandidateStructures {
   std::vector<NamedStructure> loops;
   /// Also a state-space controller (study_controllers), which starts from the best of the loops.
   bool state_space = false;
+  /// Asked for by name: a study that can't design one refuses, instead of leaving it out.
+  bool state_space_named = false;
 
   bool empty() const { return loops.empty() && !state_space; }
 };

@@ -116,7 +116,7 @@ TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options) {
   for (const auto& one : antennas) {
-    if (!options.time_domain && one.structures.state_space) {
+    if (!options.time_domain && one.structures.state_space_named) {
       throw InvalidInput(fmt::format(
           "{}: expected the time domain for a state space ({}), which starts from the loops that "
           "are best there, found none",
@@ -132,6 +132,7 @@ TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
     ensemble.members = members_of(antennas.front().mission, mission, uncertainty, options.seed);
     TuneOptions how;
     how.structures = antennas[i].structures;
+    if (!options.time_domain) how.structures.state_space = false;
     how.starts = starts;
     how.seed = options.seed;
     how.threads = options.threads;

@@ -226,7 +226,8 @@ design::CandidateStructures asked_structures(const Case& stated, std::vector<std
     }
   }
   design::CandidateStructures structures;
-  structures.state_space = std::erase(names, design::state_space_name) > 0;
+  structures.state_space_named = std::erase(names, design::state_space_name) > 0;
+  structures.state_space = structures.state_space_named || names.empty();
   if (names.empty()) {
     names = stated.tuning->structures;
     std::erase(names, design::state_space_name);

@@ -15,8 +15,9 @@ namespace boresight::io {
 design::Mission mission_of(const Case& stated);
 
 /// The structures of these names, or without names those that the case's [tuning] asks for, else
-/// PI, LL, DPF, FULL, LL+L, FULL+L+C and the case's own. design::state_space_name asks for a
-/// state-space controller as well; alone, beside the loops that no names would give.
+/// PI, LL, DPF, FULL, LL+L, FULL+L+C, the case's own and a state-space controller.
+/// design::state_space_name asks for the latter by name; alone, beside the loops that no names would
+/// give.
 /// @throws InvalidInput as loop_structure, and for a name given twice.
 design::CandidateStructures asked_structures(const Case& stated,
                                              std::vector<std::string> names = {});

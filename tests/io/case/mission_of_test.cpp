@@ -49,14 +49,17 @@ TEST(MissionOf, AnotherGearRatioTakesTheNoiseWithIt) {
       0.25, 1e-12);
 }
 
-// SS is no loop structure: it comes beside those that are named, or beside the usual ones.
+// SS is no loop structure: it comes beside the usual ones, and beside others where it is named.
 TEST(AskedStructures, KnowAStateSpaceBesideLoops) {
   const Case stated = reference();
   const auto usual = asked_structures(stated);
-  EXPECT_FALSE(usual.state_space);
+  EXPECT_TRUE(usual.state_space);
+  EXPECT_FALSE(usual.state_space_named);
+  EXPECT_FALSE(asked_structures(stated, {"PI"}).state_space);
   EXPECT_EQ(usual.loops.size(), 6U);
   const auto beside = asked_structures(stated, {"PI", "SS"});
   EXPECT_TRUE(beside.state_space);
+  EXPECT_TRUE(beside.state_space_named);
   ASSERT_EQ(beside.loops.size(), 1U);
   EXPECT_EQ(beside.loops[0].name, "PI");
   const auto alone = asked_structures(stated, {"SS"});
@@ -71,6 +74,7 @@ TEST(AskedStructures, KnowAStateSpaceBesideLoops) {
   };
   const auto of_case = mission_of(tuned("'DPF', 'SS'")).structures;
   EXPECT_TRUE(of_case.state_space);
+  EXPECT_TRUE(of_case.state_space_named);
   ASSERT_EQ(of_case.loops.size(), 1U);
   EXPECT_EQ(of_case.loops[0].name, "DPF");
   EXPECT_EQ(mission_of(tuned("'SS'")).structures.loops.size(), usual.loops.size());

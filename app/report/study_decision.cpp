@@ -329,6 +329,7 @@ std::vector<std::string> decision(const EvaluateSection& section) {
                     controller.structure, controller.usable() ? "" : ", which is not eligible"));
   }
   std::string front;
+  bool has_proposals = false;
   double before = HUGE_VAL;
   for (const std::size_t i : section.front) {
     const Candidate& candidate = section.candidates[i];
@@ -336,11 +337,12 @@ std::vector<std::string> decision(const EvaluateSection& section) {
     if (controller == nullptr || controller->compared_rms() > (1.0 - negligible_change) * before)
       continue;
     before = controller->compared_rms();
-    if (candidate.path.empty() || !candidate.cost) continue;
+    if (!candidate.cost) continue;
+    has_proposals = has_proposals || !candidate.path.empty();
     front += fmt::format("{}{} ({:g} {}, {:.3f} mdeg)", front.empty() ? "" : ", ", candidate.name,
                          *candidate.cost, section.currency, mdeg(controller->compared_rms()));
   }
-  if (!front.empty()) {
+  if (has_proposals) {
     sentences.push_back(
         fmt::format("Pareto front, each at least {:.0f} % better than all cheaper ones: {}.",
                     100.0 * negligible_change, front));

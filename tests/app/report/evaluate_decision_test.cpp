@@ -67,6 +67,15 @@ TEST(EvaluateDecision, PaysForNothingNegligible) {
   EXPECT_THAT(conclude(section), Contains(HasSubstr("no proposal is worth its cost")));
 }
 
+// The antenna as it is begins the front: what the others are compared with.
+TEST(EvaluateDecision, GivesTheParetoFrontFromTheAntennaAsItIsOn) {
+  const auto section = proposals_of({{0.0, 0.5}, {20.0, 0.495}, {50.0, 0.4}, {90.0, 0.3}});
+  EXPECT_THAT(decision(section),
+              Contains("Pareto front, each at least 2 % better than all cheaper ones: as it is (0 "
+                       "kEUR, 0.500 mdeg), proposal 2 (50 kEUR, 0.400 mdeg), proposal 3 (90 kEUR, "
+                       "0.300 mdeg)."));
+}
+
 // Of infinite means the cheapest is as good as any: what 95 % of the samples keep within tells
 // more.
 TEST(EvaluateDecision, RanksWhatIsUnstableOnSomeSamplesByWhatTheOthersKeep) {

@@ -315,6 +315,10 @@ Document goals_part(const TuneSection& section) {
   if (goals.bandwidth) {
     text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / two_pi);
   }
+  if (goals.static_encoder_error) {
+    text += fmt::format("; encoder error at rest in the mean wind at most {:.4g} mdeg",
+                        *goals.static_encoder_error / millidegree);
+  }
   if (goals.standstill) {
     text += fmt::format(
         "; Ms at most {:g} at standstill (valve command, viscous friction {:.3g} N.m.s/rad)",

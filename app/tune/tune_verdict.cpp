@@ -74,6 +74,10 @@ std::string found_and_limit(const NormalisedConstraint& goal, const design::Cons
       return maximum(goals.gust_demand.value_or(0.0), " rad/s");
     case GoalKind::gust_torque:
       return maximum(goals.gust_torque.value_or(0.0), " N.m");
+    case GoalKind::static_encoder_error: {
+      const double limit = goals.static_encoder_error.value_or(0.0) / millidegree;
+      return maximum(limit, " mdeg");
+    }
     case GoalKind::standstill_peak:
       return maximum(goals.standstill ? goals.standstill->sensitivity_peak : 0.0, "");
   }

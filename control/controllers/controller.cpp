@@ -262,6 +262,27 @@ plant::StateSpace with_rate_command(const plant::StateSpace& controller) {
   return system;
 }
 
+double velocity_constant(const Controller& controller) {
+  if (const plant::StateSpace* system = controller.structure.state_space()) {
+    const auto encoder = std::ranges::find(system->inputs, "encoder");
+    if (encoder == system->inputs.end()) return 0.0;
+    const Eigen::Index column = encoder - system->inputs.begin();
+    const Eigen::Index row = plant::output_index(*system, "valve_demand");
+    const double found = std::abs(numerics::transfer_matrix(
+        system->a, system->b.col(column), system->c.row(row),
+        system->d.block(row, column, 1, 1), 1.0)(0, 0));
+    return std::isfinite(found) ? found : std::numeric_limits<double>::infinity();
+  }
+  double product = 1.0;
+  for (const LoopPath path : {LoopPath::rate, LoopPath::position}) {
+    for (const auto& [block, gains] : blocks_of(controller, path)) {
+      if (block->kind == BlockKind::integral) return std::numeric_limits<double>::infinity();
+      if (block->kind == BlockKind::gain) product *= gains[0];
+    }
+  }
+  return product;
+}
+
 double nyquist_frequency(const Controller& controller) {
   const plant::StateSpace* system = controller.structure.state_space();
   return system != nullptr ? std::numbers::pi / system->sample_time

@@ -347,6 +347,11 @@ std::size_t LoopStructure::parts() const {
   return system != nullptr ? static_cast<std::size_t>(system->a.rows()) : gains().size();
 }
 
+bool LoopStructure::has_integral_action() const {
+  return count(LoopPath::rate, BlockKind::integral) + count(LoopPath::position, BlockKind::integral) >
+         0;
+}
+
 bool LoopStructure::feeds_torque_back() const {
   if (const plant::StateSpace* system = state_space()) {
     return std::ranges::count(system->inputs, "motor_torque") > 0;

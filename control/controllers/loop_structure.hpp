@@ -115,6 +115,8 @@ class LoopStructure {
   const SensorResponse* sensor_response() const;
   /// Number of gains, or of the states of a state space: the measure of its complexity.
   std::size_t parts() const;
+  /// True with an integral in the rate or position path: no static error under a steady torque.
+  bool has_integral_action() const;
   /// True if the controller reads the motor torque.
   bool feeds_torque_back() const;
   bool has(LoopPath path) const;

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kinds = 7;
+constexpr std::size_t kinds = 8;
 constexpr std::size_t breaks = control::loop_breaks.size();
 
 // A goal's bit: kind by kind, break by break where the kind has one; those not asked for stay 0.
@@ -50,6 +50,9 @@ std::vector<NamedGoal> asked_for(const Constraints& goals) {
   }
   if (goals.gust_demand) asked.push_back({GoalKind::gust_demand, std::nullopt});
   if (goals.gust_torque) asked.push_back({GoalKind::gust_torque, std::nullopt});
+  if (goals.static_encoder_error) {
+    asked.push_back({GoalKind::static_encoder_error, std::nullopt});
+  }
   return asked;
 }
 
@@ -161,8 +164,8 @@ void MonteCarloEvaluator::set_goals(const plant::AntennaPlant& plant, const Fixe
   }
   add(GoalKind::control_effort, std::nullopt,
       std::sqrt(values.effort_variance) / goals.control_effort);
+  const double leaking = plant.drive.leakage_rate / plant.drive.oil_stiffness * mean_torque_;
   if (goals.gust_demand) {
-    const double leaking = plant.drive.leakage_rate / plant.drive.oil_stiffness * mean_torque_;
     add(GoalKind::gust_demand, std::nullopt,
         (leaking + goals.crest_factor * std::sqrt(values.wind_demand_variance)) /
             *goals.gust_demand);
@@ -171,6 +174,10 @@ void MonteCarloEvaluator::set_goals(const plant::AntennaPlant& plant, const Fixe
     add(GoalKind::gust_torque, std::nullopt,
         (mean_torque_ + goals.crest_factor * std::sqrt(values.wind_torque_variance)) /
             *goals.gust_torque);
+  }
+  if (goals.static_encoder_error) {
+    ratios_.push_back(static_error_constraint(study_.controller, leaking, study_.problem.gear_ratio,
+                                              *goals.static_encoder_error));
   }
   if (goals.ask_for_margins()) add_margins(plant);
   // A controller tuned to rest on a limit may be above it by rounding on the plant it was tuned

@@ -89,6 +89,10 @@ void validate(const Constraints& goals) {
   expect_positive(goals.gust_demand, "gust_demand");
   expect_positive(goals.gust_torque, "gust_torque");
   expect_positive(goals.crest_factor, "crest_factor");
+  if (const auto& limit = goals.static_encoder_error) {
+    expect(*limit >= 0.0 && std::isfinite(*limit), "a static_encoder_error",
+           "of 0 or more, and finite", *limit);
+  }
 }
 
 std::string_view to_string(ObjectiveKind kind) {
@@ -104,6 +108,7 @@ std::string_view to_string(GoalKind kind) {
                                                                   "bandwidth",
                                                                   "valve demand in gusts",
                                                                   "motor torque in gusts",
+                                                                  "static encoder error",
                                                                   "sensitivity peak at standstill"};
   return names.at(static_cast<std::size_t>(kind));
 }
@@ -138,6 +143,23 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
                                  evaluation.wind_torque_log_gradient, goals.crest_factor,
                                  mean.torque, *goals.gust_torque));
   }
+}
+
+NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
+                                             double gear_ratio, double limit) {
+  constexpr double least = 1e-12;
+  NormalisedConstraint goal;
+  goal.kind = GoalKind::static_encoder_error;
+  goal.ratio = std::abs(demand) / control::velocity_constant(controller) / gear_ratio /
+               std::max(limit, least);
+  std::size_t k = 0;
+  for (const auto& block : controller.structure.blocks()) {
+    const bool in_loop = block.path == control::LoopPath::rate ||
+                         block.path == control::LoopPath::position;
+    if (in_loop && block.kind == control::BlockKind::gain) goal.log_gradient.at(k) = -1.0;
+    k += block.gains.size();
+  }
+  return goal;
 }
 
 void append_standstill_peaks(const control::LoopEvaluation& evaluation,

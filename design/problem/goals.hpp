@@ -44,6 +44,9 @@ struct Constraints {
   std::optional<double> gust_demand = std::nullopt;
   std::optional<double> gust_torque = std::nullopt;
   double crest_factor = 3.5;
+  /// Largest error of the encoder at rest in the problem's mean wind (rad at the sky): the leakage
+  /// flow that holds the mean torque over control::velocity_constant. 0 asks for an integral.
+  std::optional<double> static_encoder_error = std::nullopt;
   std::optional<Standstill> standstill = std::nullopt;
 
   bool ask_for_gusts() const { return gust_demand.has_value() || gust_torque.has_value(); }
@@ -51,8 +54,8 @@ struct Constraints {
 };
 
 /// @throws InvalidInput for a limit that no loop or every loop meets: Ms not above 1, a gain margin
-/// not above 1, a phase margin outside (0, pi), any other limit or a friction at standstill not
-/// positive and finite.
+/// not above 1, a phase margin outside (0, pi), a negative static error, any other limit or a
+/// friction at standstill not positive and finite.
 void validate(const Constraints& goals);
 
 /// The objective of a tuning: a boresight rms computed from the rms on each plant.
@@ -77,9 +80,10 @@ enum class GoalKind {
   bandwidth,
   gust_demand,
   gust_torque,
+  static_encoder_error,
   standstill_peak,
 };
-inline constexpr std::size_t goal_kinds = 8;
+inline constexpr std::size_t goal_kinds = 9;
 std::string_view to_string(GoalKind kind);
 
 /// One normalised constraint (value/limit) of one loop.
@@ -106,6 +110,10 @@ struct MeanWindLoad {
 void append_normalised_constraints(const control::LoopEvaluation& evaluation,
                                    const Constraints& goals, const MeanWindLoad& mean,
                                    std::vector<NormalisedConstraint>& ratios);
+/// The ratio of Constraints::static_encoder_error. `demand`: MeanWindLoad::demand; a limit below
+/// 1e-12 rad counts as that.
+NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
+                                             double gear_ratio, double limit);
 /// Appends the constraint of Constraints::standstill, from one evaluation with its friction.
 void append_standstill_peaks(const control::LoopEvaluation& evaluation,
                              const Standstill& standstill,

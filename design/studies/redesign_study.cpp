@@ -85,6 +85,7 @@ void evaluate_in_wind(const Mission& mission, RecommendedDesign& section) {
   in_this_wind.wind = problem.wind;
   section.torque_limited_wind_speed = torque_limited_wind_speed(in_this_wind);
   section.static_error = static_boresight_error(problem, controller);
+  section.static_encoder_error = static_encoder_error(problem, controller);
   for (const auto& band : mission.bands) {
     section.losses.push_back({band,
                               pointing_loss_db(section.design.boresight_rms, band.beamwidth,

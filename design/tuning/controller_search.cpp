@@ -34,6 +34,7 @@ class Rows {
     }
     if (goals.gust_demand) take(GoalKind::gust_demand, 1);
     if (goals.gust_torque) take(GoalKind::gust_torque, 1);
+    if (goals.static_encoder_error) take(GoalKind::static_encoder_error, 1);
     if (goals.standstill) take(GoalKind::standstill_peak, most_of_a_kind);
   }
 

@@ -87,12 +87,14 @@ std::string missed_margin(const TrackingProblem& problem, const control::Control
   return {};
 }
 
-std::string missed_gusts(const TrackingProblem& problem, const control::Controller& controller,
+std::string missed_in_mean_wind(const TrackingProblem& problem, const control::Controller& controller,
                          const Constraints& goals) {
   PlantEvaluator plant("", problem, goals, WindTable(problem));
   for (const NormalisedConstraint& goal : plant.evaluate(controller, false).ratios) {
-    const bool gusts = goal.kind == GoalKind::gust_demand || goal.kind == GoalKind::gust_torque;
-    if (gusts && goal.ratio > met) {
+    const bool in_mean_wind = goal.kind == GoalKind::gust_demand ||
+                              goal.kind == GoalKind::gust_torque ||
+                              goal.kind == GoalKind::static_encoder_error;
+    if (in_mean_wind && goal.ratio > met) {
       return fmt::format("{}: {:.6f} times its limit", describe(goal), goal.ratio);
     }
   }
@@ -164,8 +166,8 @@ Verification verify(const TrackingProblem& problem, const control::Controller& c
     const std::string missed = missed_margin(problem, controller, goals);
     if (!missed.empty()) verification.failure = missed;
   }
-  if (goals.ask_for_gusts()) {
-    const std::string missed = missed_gusts(problem, controller, goals);
+  if (goals.ask_for_gusts() || goals.static_encoder_error) {
+    const std::string missed = missed_in_mean_wind(problem, controller, goals);
     if (!missed.empty()) verification.failure = missed;
   }
   if (goals.standstill) {

@@ -18,14 +18,15 @@ PlantEvaluator::PlantEvaluator(std::string name, const TrackingProblem& problem,
     : name_(std::move(name)),
       plant_(problem.plant),
       delay_(problem.delay),
+      gear_ratio_(problem.gear_ratio),
       goals_(goals),
       frequency_(analysis_grid(problem)),
       evaluator_(make_adaptive_evaluator(problem, wind, tolerance)) {
+  const auto& drive = problem.plant.drive;
+  mean_.torque =
+      plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
+  mean_.demand = drive.leakage_rate / drive.oil_stiffness * mean_.torque;
   if (goals.ask_for_gusts()) {
-    const auto& drive = problem.plant.drive;
-    mean_.torque =
-        plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
-    mean_.demand = drive.leakage_rate / drive.oil_stiffness * mean_.torque;
     if (problem.climate.empty()) {
       evaluator_.look_at_gusts(true);
     } else {
@@ -75,6 +76,10 @@ const PlantEvaluation& PlantEvaluator::evaluate(const control::Controller& contr
     evaluation.wind_torque_log_gradient = gusts.wind_torque_log_gradient;
   }
   append_normalised_constraints(evaluation, goals_, mean_, plant_evaluation_.ratios);
+  if (goals_.static_encoder_error) {
+    plant_evaluation_.ratios.push_back(static_error_constraint(
+        controller, mean_.demand, gear_ratio_, *goals_.static_encoder_error));
+  }
   if (!channels_.empty()) {
     append_margin_ratios(channels_.front(), delay_, controller, goals_, plant_evaluation_.ratios);
   }

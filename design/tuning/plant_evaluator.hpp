@@ -50,6 +50,7 @@ class PlantEvaluator {
   std::string name_;
   plant::AntennaPlant plant_;
   double delay_;
+  double gear_ratio_;
   Constraints goals_;
   bool at_standstill_ = false;
   MeanWindLoad mean_;

@@ -34,4 +34,12 @@ double static_boresight_error(const TrackingProblem& problem,
   return std::abs(loop.at(far_below).boresight_by_wind * torque) / problem.gear_ratio;
 }
 
+double static_encoder_error(const TrackingProblem& problem, const control::Controller& controller) {
+  const double torque =
+      plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
+  const auto& drive = problem.plant.drive;
+  return std::abs(drive.leakage_rate / drive.oil_stiffness * torque) /
+         control::velocity_constant(controller) / problem.gear_ratio;
+}
+
 }  // namespace boresight::design

@@ -33,6 +33,7 @@ void read_optional_goals(TableReader& table, GoalsEntry& goals) {
   take("sensitivity_peak_standstill", Kind::number, Range::between(1.01, 100.0),
        goals.standstill_peak);
   take("limit_cycle_amplitude", Kind::angle, Range::positive(0.01), goals.limit_cycle_amplitude);
+  take("static_encoder_error", Kind::angle, Range::not_negative(0.01), goals.static_encoder_error);
   take("crest_factor", Kind::number, Range::between(1.0, 10.0), goals.crest_factor);
   take("beam_rms", Kind::angle, Range::positive(1.0), goals.boresight_rms);
   if (table.has("soft_goal") || table.optional_text("soft_goal")) {

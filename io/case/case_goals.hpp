@@ -26,6 +26,7 @@ struct GoalsEntry {
   std::optional<Quantity> bandwidth;     // rad/s, of the position loop
   std::optional<Quantity> standstill_peak;
   std::optional<Quantity> limit_cycle_amplitude;  // rad
+  std::optional<Quantity> static_encoder_error;   // rad, at rest in the mean wind
   std::optional<Quantity> crest_factor;           // of the torque in gusts, against the supply's
   std::optional<Quantity> boresight_rms;          // rad
   ObjectiveKind objective = ObjectiveKind::nominal;

@@ -18,7 +18,9 @@ design::Mission mission_of(const Case& stated);
 /// PI, LL, DPF, FULL, LL+L, FULL+L+C, the case's own and a state-space controller.
 /// design::state_space_name asks for the latter by name; alone, beside the loops that no names would
 /// give.
-/// @throws InvalidInput as loop_structure, and for a name given twice.
+/// With a static_encoder_error of 0 only those with integral action (LoopStructure).
+/// @throws InvalidInput as loop_structure, and for a name given twice; InfeasibleRequirement for a
+/// named structure without integral action where the static_encoder_error is 0.
 design::CandidateStructures asked_structures(const Case& stated,
                                              std::vector<std::string> names = {});
 

@@ -287,6 +287,7 @@ TEST(CaseGoals, ReadsGoalsAtEachBreakAndOfTheEnsemble) {
                                   "phase_margin = \"30 deg\"\nbandwidth = \"0.05 Hz\"\n"
                                   "crest_factor = \"3\"\nbeam_rms = \"2 mdeg\"\n"
                                   "limit_cycle_amplitude = \"0.3 mdeg\"\n"
+                                  "static_encoder_error = \"0.05 mdeg\"\n"
                                   "soft_goal = \"quantile\"\nquantile = \"90 %\"\n")
           .text(),
       "case.toml");
@@ -302,6 +303,8 @@ TEST(CaseGoals, ReadsGoalsAtEachBreakAndOfTheEnsemble) {
   const double amplitude = mission_of(antenna).limit_cycle_amplitude.value_or(0.0);
   EXPECT_NEAR(amplitude, 0.3e-3 * std::numbers::pi / 180.0, 1e-18);
   EXPECT_EQ(allowed_limit_cycle(mission_of(antenna)), amplitude);
+  const auto stated = mission_of(antenna).stated_constraints;
+  EXPECT_NEAR(stated.static_encoder_error.value_or(0.0), 0.05e-3 * std::numbers::pi / 180.0, 1e-18);
 }
 
 TEST(CaseGoals, RefusesAQuantileOfNothing) {

@@ -341,6 +341,25 @@ TEST(Tune, SaysWhichGoalsContradictEachOther) {
   EXPECT_EQ(tune(path, {"--goal", "sensitivity_peak=1.2"}).exit_code, 0);
 }
 
+// A leaky integral leaves an error, an integral none; what a limit costs stands among the others.
+TEST(Tune, HoldsTheStaticErrorOfTheMeanWind) {
+  const ScratchFolder folder;
+  const std::string path = linear_case(folder);
+  const auto none = tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0 mdeg"});
+  EXPECT_EQ(none.exit_code, 3);
+  EXPECT_THAT(none.errors,
+              HasSubstr("goals.static_encoder_error: expected more than 0 mdeg for LL+L, without an "
+                        "integral in the rate or position loop, found 0. Allow an error"));
+  EXPECT_EQ(tune(path, {"--goal", "static_encoder_error=0 mdeg"}).exit_code, 0);
+  const auto small =
+      tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0.001 mdeg"});
+  EXPECT_EQ(small.exit_code, 3);
+  EXPECT_THAT(small.errors, ContainsRegex("static encoder error.*: [0-9.]+ mdeg, limit at most "
+                                          "0.001"));
+  EXPECT_THAT(small.output,
+              ContainsRegex("encoder error at rest in the\\s+mean wind at most 0.001 mdeg"));
+}
+
 // With 30 ms and Ms 2 one integrator has 0.457/0.03 rad/s.
 TEST(Tune, SaysThatABandwidthExceedsWhatTheDelayLeaves) {
   const ScratchFolder folder;

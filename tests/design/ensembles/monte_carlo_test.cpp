@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,6 +13,7 @@
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/ensembles/monte_carlo.hpp>
 #include <boresight/design/tuning/design_study.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/normal_numbers.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
@@ -177,6 +180,27 @@ TEST(MonteCarlo, TellsWhichGoalsBreak) {
   const auto outcome = design::MonteCarloEvaluator(windy).evaluate(0);
   EXPECT_EQ(outcome.violated_constraints, 0b1011000U);
   EXPECT_GT(outcome.worst_constraint, 1e4);
+}
+
+// On each plant by its own leakage and oil stiffness.
+TEST(MonteCarlo, HoldsTheStaticErrorOfEachPlantAgainstItsLimit) {
+  MonteCarlo leaky = study(20);
+  leaky.controller = reference::lag_loops();
+  std::vector<double> errors;
+  for (std::uint64_t index = 0; index < leaky.plants; ++index) {
+    design::TrackingProblem problem = leaky.problem;
+    problem.plant = leaky.plant(index);
+    errors.push_back(design::static_encoder_error(problem, leaky.controller));
+  }
+  const double limit = 0.5 * (std::ranges::min(errors) + std::ranges::max(errors));
+  leaky.goals.static_encoder_error = limit;
+  EXPECT_EQ(design::goal_names(leaky.goals).back(), "static encoder error");
+  design::MonteCarloEvaluator evaluator(leaky);
+  for (std::uint64_t index = 0; index < leaky.plants; ++index) {
+    const auto outcome = evaluator.evaluate(index);
+    ASSERT_TRUE(outcome.stable());
+    EXPECT_EQ((outcome.violated_constraints >> 4U) & 1U, errors[index] > limit ? 1U : 0U) << index;
+  }
 }
 
 TEST(MonteCarlo, RetunesEachPlantToNoMoreThanTheFixedController) {

@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "design/reference_problem.hpp"
+#include "lag_loops.hpp"
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
+#include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -101,6 +103,63 @@ TEST(Standstill, OfABadLimitIsRefused) {
   goals = standing();
   goals.standstill->friction = {0.0};
   EXPECT_THROW(validate(goals), InvalidInput);
+}
+
+Constraints within(double static_encoder_error) {
+  Constraints goals;
+  goals.static_encoder_error = static_encoder_error;
+  return goals;
+}
+
+// Its gradient is that of the product of both paths' gains.
+TEST(StaticEncoderError, IsAConstraintOnTheLoopsStaticGain) {
+  const TrackingProblem problem = reference::tracking_problem();
+  const Controller loops = reference::lag_loops();
+  const double limit = 2.0 * static_encoder_error(problem, loops);
+  PlantEvaluator plant("", problem, within(limit), WindTable(problem));
+  const auto ratio_of = [&](const Controller& controller) {
+    const auto& ratios = plant.evaluate(controller, true).ratios;
+    return *std::ranges::find(ratios, GoalKind::static_encoder_error, &NormalisedConstraint::kind);
+  };
+  const auto found = ratio_of(loops);
+  EXPECT_NEAR(found.ratio, 0.5, 1e-12);
+  for (std::size_t k = 0; k < loops.gains.size(); ++k) {
+    Controller other = loops;
+    other.gains[k] *= 1.001;
+    EXPECT_NEAR(std::log(ratio_of(other).ratio / found.ratio) / std::log(1.001),
+                found.log_gradient[k], 1e-9)
+        << k;
+  }
+  EXPECT_NEAR(ratio_of(reference::lag_loops_as_state_space()).ratio, 0.5, 1e-9);
+  EXPECT_EQ(ratio_of(reference::cautious_gains()).ratio, 0.0) << "integrals";
+}
+
+TEST(StaticEncoderError, IsMetByWhatIsTunedForIt) {
+  const TrackingProblem problem = reference::tracking_problem();
+  TuningOptions options;
+  options.starts = 6;
+  const auto structure = LoopStructure::named("LL+L");
+  const auto free = tune(problem, structure, {}, options);
+  ASSERT_EQ(free.status, TuningStatus::optimal);
+  const Constraints goals = within(0.9 * static_encoder_error(problem, free.controller));
+  EXPECT_FALSE(verify(problem, free.controller, goals).passed);
+  const auto tuned = tune(problem, structure, goals, options);
+  ASSERT_EQ(tuned.status, TuningStatus::optimal);
+  EXPECT_TRUE(verify(problem, tuned.controller, goals).passed);
+  EXPECT_NEAR(static_encoder_error(problem, tuned.controller), *goals.static_encoder_error,
+              1e-5 * *goals.static_encoder_error);
+  EXPECT_GT(tuned.soft_rms, free.soft_rms);
+  EXPECT_TRUE(std::ranges::any_of(tuned.limits, [](const ActiveConstraint& limit) {
+    return limit.goal.kind == GoalKind::static_encoder_error && limit.shadow_price > 0.0;
+  }));
+  // Without an integral none is small enough for nothing.
+  EXPECT_NE(tune(problem, structure, within(0.0), options).status, TuningStatus::optimal);
+}
+
+TEST(StaticEncoderError, OfABadLimitIsRefused) {
+  EXPECT_NO_THROW(validate(within(0.0)));
+  EXPECT_THROW(validate(within(-1e-6)), InvalidInput);
+  EXPECT_THROW(validate(within(HUGE_VAL)), InvalidInput);
 }
 
 }  // namespace

@@ -75,6 +75,9 @@ TEST(LinearPrediction, StaticErrorOfALeakyLoopIsThatOfItsGain) {
   EXPECT_NEAR(static_boresight_error(problem, controller), expected, 1e-5 * expected);
   EXPECT_NEAR(static_boresight_error(problem, sampled(controller)), expected, 1e-5 * expected);
   EXPECT_GT(encoder, 0.05 * expected);
+  EXPECT_NEAR(static_encoder_error(problem, controller), encoder, 1e-12 * encoder);
+  EXPECT_NEAR(static_encoder_error(problem, sampled(controller)), encoder, 1e-9 * encoder);
+  EXPECT_EQ(static_encoder_error(problem, reference::cautious_gains()), 0.0);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "io/edited_case.hpp"
+#include "refused_call.hpp"
 #include <boresight/design/problem/pointing.hpp>
 #include <boresight/io/case/antenna_of.hpp>
 #include <boresight/io/case/case_drive.hpp>
@@ -15,6 +16,7 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/plant_numbers.hpp>
+#include <boresight/numerics/error.hpp>
 
 namespace boresight::io {
 namespace {
@@ -80,6 +82,25 @@ TEST(AskedStructures, KnowAStateSpaceBesideLoops) {
   EXPECT_EQ(mission_of(tuned("'SS'")).structures.loops.size(), usual.loops.size());
   EXPECT_FALSE(asked_structures(tuned("'DPF', 'SS'"), {"PI"}).state_space);
   EXPECT_EQ(asked_structures(tuned("'DPF', 'SS'"), {"SS"}).loops.size(), 1U);
+}
+
+// Without integral action the mean wind leaves an error: a leaky integral and a state space do.
+TEST(AskedStructures, HaveIntegralActionWhereNoStaticErrorIsAllowed) {
+  Case stated = reference();
+  change_goals(*stated.goals, {"static_encoder_error=0 mdeg"});
+  EXPECT_EQ(mission_of(stated).stated_constraints.static_encoder_error, 0.0);
+  const auto left = asked_structures(stated);
+  EXPECT_FALSE(left.state_space);
+  ASSERT_EQ(left.loops.size(), 4U);
+  for (const auto& one : left.loops) EXPECT_TRUE(one.structure.has_integral_action()) << one.name;
+  EXPECT_EQ(asked_structures(stated, {"PI"}).loops.size(), 1U);
+  EXPECT_THAT(boresight::reference::Call([&] { asked_structures(stated, {"PI", "LL+L", "SS"}); }),
+              testing::ThrowsMessage<InfeasibleRequirement>(
+                  testing::HasSubstr("expected more than 0 mdeg for LL+L, SS, without an integral")));
+  EXPECT_THAT(boresight::reference::Call([&] { asked_structures(stated, {"SS"}); }),
+              testing::ThrowsMessage<InfeasibleRequirement>(testing::HasSubstr("for SS, without")));
+  change_goals(*stated.goals, {"static_encoder_error=0.1 mdeg"});
+  EXPECT_TRUE(asked_structures(stated).state_space);
 }
 
 TEST(MissionOf, SupplyHoldsTheMeanTorqueOfItsWindSpeed) {

@@ -4,6 +4,7 @@
 #include <complex>
 
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 
 #include <boresight/numerics/complex_packs.hpp>
 #include <boresight/numerics/vector_clones.hpp>
@@ -49,6 +50,13 @@ TEST(VectorClones, UseRegistersAsWideAsTheyMay) {
     EXPECT_EQ(run_on_widest_lanes<Series>(ratios(), 3, sum), register_lanes());
   }
   EXPECT_EQ(register_lanes(), widest);
+}
+
+// Their sizes decide in which order Eigen sums a product.
+TEST(VectorClones, ComeWithBlocksOfEigensThatNoProcessorsCachesDecide) {
+  EXPECT_EQ(Eigen::l1CacheSize(), Eigen::internal::defaultL1CacheSize);
+  EXPECT_EQ(Eigen::l2CacheSize(), Eigen::internal::defaultL2CacheSize);
+  EXPECT_EQ(Eigen::l3CacheSize(), Eigen::internal::defaultL3CacheSize);
 }
 
 TEST(VectorClones, SumTheSameBitsInRegistersOfEveryWidth) {

@@ -29,21 +29,39 @@ Document gains_table(const std::string& title, const control::LoopStructure& str
   return subheading("Gains " + title) + table(std::move(rows), "ll");
 }
 
+// For a control computer that can't load the state space recommended.
+Document loops_beside(const std::string& name, const control::Controller& controller,
+                      const io::GainUnits& units) {
+  return gains_table("of the best loops: " + name, controller.structure, units.texts(controller));
+}
+
 Document of_study(const design::TuningStudy& study, const io::GainUnits& units) {
   const TunedController* recommended = design::recommended_tuned_controller(study);
   if (recommended == nullptr) return {};
   const auto& controller = recommended->design.tuning.controller;
-  return gains_table("to load: " + name_and_purpose(*recommended), controller.structure,
-                     units.texts(controller));
+  auto document = gains_table("to load: " + name_and_purpose(*recommended), controller.structure,
+                              units.texts(controller));
+  if (recommended->is_state_space()) {
+    if (const auto* loops = design::recommended_loops(study, recommended->wind_speed)) {
+      document += loops_beside(name_and_purpose(*loops), loops->design.tuning.controller, units);
+    }
+  }
+  return document;
 }
 
 Document of_redesign(const TuningSection& section) {
   if (!section.design.usable()) return {};
   const auto& controller = section.design.tuning.controller;
   const bool fit = section.fitness == design::Fitness::fit;
-  return gains_table(fmt::format("{}: {}, {}", fit ? "to load" : "not to be loaded", section.name,
-                                 to_string(section.tuned_for)),
-                     controller.structure, section.gain_units.texts(controller));
+  auto document =
+      gains_table(fmt::format("{}: {}, {}", fit ? "to load" : "not to be loaded", section.name,
+                              to_string(section.tuned_for)),
+                  controller.structure, section.gain_units.texts(controller));
+  if (section.loops) {
+    document += loops_beside(section.loops->structure,
+                             section.loops->design.tuning.controller, section.gain_units);
+  }
+  return document;
 }
 
 // Of the proposal to choose; where no samples were drawn, of the antenna as it is.

@@ -17,7 +17,6 @@
 #include <boresight/app/report/margins_line.hpp>
 #include <boresight/app/report/present_gains.hpp>
 #include <boresight/app/report/redesign_card.hpp>
-#include <boresight/app/report/text_state_space.hpp>
 #include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/decisions/confidence.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
@@ -145,8 +144,9 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     gains.push_back(fmt::format("{} = {}", controller.structure.gains()[i].symbol, values[i]));
   }
-  if (controller.structure.state_space() != nullptr) {
-    gains.push_back(state_space_text(controller.structure));
+  if (const auto* system = controller.structure.state_space()) {
+    gains.push_back(fmt::format("{}, sampled every {:.3g} s, matrices by `--mat FILE`",
+                                controller.structure.name(), system->sample_time));
   }
   const std::string beside =
       section.loops

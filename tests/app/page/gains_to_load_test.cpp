@@ -6,6 +6,7 @@
 
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/gains_to_load.hpp>
+#include <boresight/control/loops/state_space_controller.hpp>
 
 namespace boresight::app {
 namespace {
@@ -42,6 +43,27 @@ TEST(GainsToLoad, AreOfTheProposalWorthItsCost) {
   section.decision->worth = 1;
   EXPECT_THAT(to_text(gains_to_load(report)),
               AllOf(HasSubstr("no flywheels"), HasSubstr("0.126"), Not(HasSubstr("0.133"))));
+}
+
+// A control computer may not run a state space: the best loops' gains stand below it.
+TEST(GainsToLoad, AreOfTheBestLoopsBesideAStateSpace) {
+  auto system = plant::static_gain(Eigen::MatrixXd::Ones(1, 1), {"tachometer"}, {"valve_demand"});
+  system.sample_time = 0.02;
+  const auto controller = control::state_space_controller("state space, order 0", system);
+  Report report;
+  TuningSection& section = report.tuning.emplace();
+  section.name = "SS";
+  section.fitness = design::Fitness::fit;
+  section.structure = controller.structure;
+  section.design.tuning.controller = controller;
+  section.design.tuning.status = design::TuningStatus::optimal;
+  section.design.verification.passed = true;
+  auto& loops = section.loops.emplace();
+  loops.structure = "PI";
+  loops.design.tuning.controller = candidate_of("", 0.133).controllers[0].design.tuning.controller;
+  EXPECT_THAT(to_text(gains_to_load(report)),
+              AllOf(HasSubstr("to load: SS"), HasSubstr("state space, order 0, sampled every 0.02 s"),
+                    HasSubstr("of the best loops: PI"), HasSubstr("kr rate gain")));
 }
 
 TEST(GainsToLoad, AreNoneWithoutAControllerThatMeetsItsConstraints) {

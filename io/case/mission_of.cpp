@@ -256,7 +256,7 @@ design::CandidateStructures asked_structures(const Case& stated, std::vector<std
   }
   design::CandidateStructures structures;
   structures.state_space_named = std::erase(names, design::state_space_name) > 0;
-  structures.state_space = structures.state_space_named || names.empty();
+  structures.state_space = structures.state_space_named || (names.empty() && stated.simulation);
   if (names.empty()) {
     names = stated.tuning->structures;
     std::erase(names, design::state_space_name);

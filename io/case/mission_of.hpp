@@ -15,10 +15,10 @@ namespace boresight::io {
 design::Mission mission_of(const Case& stated);
 
 /// The structures of these names, or without names those that the case's [tuning] asks for, else
-/// PI, LL, DPF, FULL, LL+L, FULL+L+C, the case's own and a state-space controller.
-/// design::state_space_name asks for the latter by name; alone, beside the loops that no names would
-/// give.
-/// With a static_encoder_error of 0 only those with integral action (LoopStructure).
+/// PI, LL, DPF, FULL, LL+L, FULL+L+C, the case's own and, if the case has a [simulation] that can
+/// show its limit cycles, a state-space controller. design::state_space_name asks for the latter by
+/// name; alone, beside the loops that no names would give. With a static_encoder_error of 0 only
+/// those with integral action (LoopStructure).
 /// @throws InvalidInput as loop_structure, and for a name given twice; InfeasibleRequirement for a
 /// named structure without integral action where the static_encoder_error is 0.
 design::CandidateStructures asked_structures(const Case& stated,

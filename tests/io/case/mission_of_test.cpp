@@ -58,6 +58,9 @@ TEST(AskedStructures, KnowAStateSpaceBesideLoops) {
   EXPECT_TRUE(usual.state_space);
   EXPECT_FALSE(usual.state_space_named);
   EXPECT_FALSE(asked_structures(stated, {"PI"}).state_space);
+  const Case linear = parse_case(EditedCase().remove_table("simulation").text(), "case.toml");
+  EXPECT_FALSE(asked_structures(linear).state_space) << "nothing shows its limit cycles";
+  EXPECT_TRUE(asked_structures(linear, {"SS"}).state_space);
   EXPECT_EQ(usual.loops.size(), 6U);
   const auto beside = asked_structures(stated, {"PI", "SS"});
   EXPECT_TRUE(beside.state_space);

@@ -381,8 +381,9 @@ class Redesign(unittest.TestCase):
             for design in designs(found):
                 self.assertTrue(design["feasible"])
                 self.assertTrue(design["verified"])
-                self.assertEqual("rate_lag_corner_rad_per_s" in design["gains"],
-                                 design["structure"] != "PI without lag")
+                if design["gains"]:  # a state space has none
+                    self.assertEqual("rate_lag_corner_rad_per_s" in design["gains"],
+                                     design["structure"] != "PI without lag")
                 for cut, goal in zip(design["loop_breaks"], goals):
                     self.assertLessEqual(cut["sensitivity_peak_1"], goal * (1 + 1e-6))
                     # Ms bounds the phase margin from below.
@@ -397,13 +398,22 @@ class Redesign(unittest.TestCase):
 
     def test_is_confirmed_by_a_second_integrator(self):
         for found in (report("redesign")["time_domain"], report("tune", TUNED)["time_domain"]):
-            self.assertLess(found["integrators"]["ratio_1"], 1e-4)
+            integrators = found["integrators"]
+            self.assertTrue(integrators["agree"])
+            # The encoder's steps amplify rounding in a loop of high gain.
+            without = integrators["ratio_without_quantisation_1"]
+            self.assertLess(integrators["ratio_1"] if without is None else without, 1e-4)
 
-    def test_takes_the_best_seed(self):
+    def test_shows_the_best_loops_beside_a_state_space(self):
         tuning = report("redesign")["tuning"]
-        self.assertEqual([seed["seed"] for seed in tuning["seeds"]], list(range(1, 9)))
-        best = min(seed["boresight_rms_mdeg"] for seed in tuning["seeds"] if seed["verified"])
-        self.assertAlmostEqual(tuning["design"]["boresight_rms_mdeg"], best, delta=1e-4 * best)
+        self.assertTrue(tuning["design"]["structure"].startswith("state space"))
+        loops = tuning["loops"]
+        self.assertTrue(loops["design"]["gains"])
+        self.assertLess(tuning["evaluated_rms_mdeg"], 0.98 * loops["simulated_rms_mdeg"])
+
+    def test_holds_the_design_against_other_winds_and_budgets(self):
+        tuning = report("redesign")["tuning"]
+        best = tuning["design"]["boresight_rms_mdeg"]
         held = {model["model"]: model["boresight_rms_mdeg"] for model in tuning["wind_models"]}
         self.assertAlmostEqual(held[tuning["wind_model"]], best, delta=1e-6)
         self.assertGreater(tuning["flexure_rms_mdeg"], 0.0)
@@ -418,8 +428,8 @@ class Redesign(unittest.TestCase):
         for choice in choices:
             self.assertNotEqual(choice["design"] is None, choice["impossible_because"] is None)
         reference = choices[0]["design"]["boresight_rms_mdeg"]
-        # Tuned for this plant alone.
-        self.assertLess(reference, 1.0001 * found["tuning"]["design"]["boresight_rms_mdeg"])
+        # Of the same structure, tuned for this plant alone.
+        self.assertLess(reference, 1.0001 * found["tuning"]["loops"]["design"]["boresight_rms_mdeg"])
 
     def test_matches_over_all_disks_and_at_ratio_one(self):
         matching = report("redesign")["matching"]

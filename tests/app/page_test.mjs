@@ -103,9 +103,12 @@ const layout = () => {
   };
 };
 
+// Of a redesign: the controller recommended or, beside a state space, the best loops.
+const loopsOf = ({ tuning }) => (tuning.loops ?? tuning).design;
+
 // The designs that a report may recommend, with their gains by name and unit.
 const gainsOf = {
-  redesign: ({ tuning }) => [tuning.design.gains],
+  redesign: (json) => [loopsOf(json).gains],
   match: ({ matched }) => [matched.recommended_as_built.design.gains],
   tune: ({ tuned }) => tuned.controllers.map(({ design }) => design.gains),
 };
@@ -287,10 +290,10 @@ const analysis = () => {
   return new Function(`${source}; return LoopAnalysis;`)();
 };
 
-test("sliders over gains begin with the report's controller", async () => {
+test("sliders over gains begin with the report's loops", async () => {
   const { page, troubles, close } = await open("redesign");
   const panel = page.locator(".loop-sliders");
-  const { design } = made.redesign.json.tuning;
+  const design = loopsOf(made.redesign.json);
   const rms = Number(await panel.locator(".answer").getAttribute("data-rms"));
   // The report's is by adaptive quadrature, the panel's on the program's frequency grid.
   assert.ok(Math.abs(rms / design.boresight_rms_mdeg - 1) < 1e-7, `${rms}, expected ${design.boresight_rms_mdeg}`);

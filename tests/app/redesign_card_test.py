@@ -173,14 +173,26 @@ class Card(unittest.TestCase):
         self.assertLess(len(taken), 0.3 * len(wrong), taken)
 
     def test_names_the_controller_with_its_gains(self):
+        loops = redesign("bwg-34m/case.toml")[0]
+        line = card_of(loops).get("Recommended") or card_of(loops)["Load"]
+        self.assertEqual(line.count(" = "), len(loops["tuning"]["design"]["gains"]))
         report = redesign(BIG)[0]
         card = card_of(report)
-        self.assertEqual(card["Recommended"].count(" = "), len(report["tuning"]["design"]["gains"]))
+        self.assertIn(report["tuning"]["design"]["structure"], card["Recommended"])
+        self.assertIn(f"best loops {report['tuning']['loops']['structure']}, ", card["Recommended"])
         expected = report["time_domain"]["expected_rms"]
         self.assertIn(f"{expected['rms_mdeg']:.3f} mdeg rms at ", card["Error per axis"])
         self.assertIn(f"95 % {expected['lower_mdeg']:.3f} to {expected['upper_mdeg']:.3f} over "
                       f"{expected['records']} winds", card["Error per axis"])
         self.assertRegex(card["Confidence"], "^low: inertias and resonance contradict")
+
+    def test_takes_the_best_of_the_seeds(self):
+        for name in ("bwg-34m/case.toml", "xy-13m/case.toml"):
+            tuning = redesign(name)[0]["tuning"]
+            with self.subTest(case=name):
+                self.assertEqual([seed["seed"] for seed in tuning["seeds"]], list(range(1, 9)))
+                best = min(seed["boresight_rms_mdeg"] for seed in tuning["seeds"] if seed["verified"])
+                self.assertAlmostEqual(tuning["design"]["boresight_rms_mdeg"], best, delta=1e-4 * best)
 
     def test_compares_with_the_gains_of_today_or_the_structure_tuned_again(self):
         for name in (BIG, *QUICK):

@@ -60,7 +60,8 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     if (options.structures.empty()) options.structures = io::asked_structures(antenna);
     if (options.structures.state_space_named) {
       throw InvalidInput(
-          "tune: expected either --no-limit or the structure SS, whose design comes from the limit, "
+          "tune: expected either --no-limit or the structure SS, whose design comes from the "
+          "limit, "
           "found both");
     }
     options.structures.state_space = false;

@@ -53,13 +53,12 @@ Document of_redesign(const TuningSection& section) {
   if (!section.design.usable()) return {};
   const auto& controller = section.design.tuning.controller;
   const bool fit = section.fitness == design::Fitness::fit;
-  auto document =
-      gains_table(fmt::format("{}: {}, {}", fit ? "to load" : "not to be loaded", section.name,
-                              to_string(section.tuned_for)),
-                  controller.structure, section.gain_units.texts(controller));
+  auto document = gains_table(fmt::format("{}: {}, {}", fit ? "to load" : "not to be loaded",
+                                          section.name, to_string(section.tuned_for)),
+                              controller.structure, section.gain_units.texts(controller));
   if (section.loops) {
-    document += loops_beside(section.loops->structure,
-                             section.loops->design.tuning.controller, section.gain_units);
+    document += loops_beside(section.loops->structure, section.loops->design.tuning.controller,
+                             section.gain_units);
   }
   return document;
 }

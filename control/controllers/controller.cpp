@@ -268,9 +268,9 @@ double velocity_constant(const Controller& controller) {
     if (encoder == system->inputs.end()) return 0.0;
     const Eigen::Index column = encoder - system->inputs.begin();
     const Eigen::Index row = plant::output_index(*system, "valve_demand");
-    const double found = std::abs(numerics::transfer_matrix(
-        system->a, system->b.col(column), system->c.row(row),
-        system->d.block(row, column, 1, 1), 1.0)(0, 0));
+    const double found =
+        std::abs(numerics::transfer_matrix(system->a, system->b.col(column), system->c.row(row),
+                                           system->d.block(row, column, 1, 1), 1.0)(0, 0));
     return std::isfinite(found) ? found : std::numeric_limits<double>::infinity();
   }
   double product = 1.0;

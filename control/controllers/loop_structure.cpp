@@ -348,7 +348,8 @@ std::size_t LoopStructure::parts() const {
 }
 
 bool LoopStructure::has_integral_action() const {
-  return count(LoopPath::rate, BlockKind::integral) + count(LoopPath::position, BlockKind::integral) >
+  return count(LoopPath::rate, BlockKind::integral) +
+             count(LoopPath::position, BlockKind::integral) >
          0;
 }
 

@@ -154,8 +154,8 @@ NormalisedConstraint static_error_constraint(const control::Controller& controll
                std::max(limit, least);
   std::size_t k = 0;
   for (const auto& block : controller.structure.blocks()) {
-    const bool in_loop = block.path == control::LoopPath::rate ||
-                         block.path == control::LoopPath::position;
+    const bool in_loop =
+        block.path == control::LoopPath::rate || block.path == control::LoopPath::position;
     if (in_loop && block.kind == control::BlockKind::gain) goal.log_gradient.at(k) = -1.0;
     k += block.gains.size();
   }

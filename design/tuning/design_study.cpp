@@ -87,8 +87,8 @@ std::string missed_margin(const TrackingProblem& problem, const control::Control
   return {};
 }
 
-std::string missed_in_mean_wind(const TrackingProblem& problem, const control::Controller& controller,
-                         const Constraints& goals) {
+std::string missed_in_mean_wind(const TrackingProblem& problem,
+                                const control::Controller& controller, const Constraints& goals) {
   PlantEvaluator plant("", problem, goals, WindTable(problem));
   for (const NormalisedConstraint& goal : plant.evaluate(controller, false).ratios) {
     const bool in_mean_wind = goal.kind == GoalKind::gust_demand ||

@@ -27,8 +27,8 @@ double predicted_rms(const TrackingProblem& problem, const control::Controller& 
 double static_boresight_error(const TrackingProblem& problem,
                               const control::Controller& controller);
 
-/// Encoder error (rad at the sky, magnitude) at rest in the problem's mean wind, less what compliance
-/// compensation moves the encoder by: the leakage flow that holds the mean torque, over
+/// Encoder error (rad at the sky, magnitude) at rest in the problem's mean wind, less what
+/// compliance compensation moves the encoder by: the leakage flow that holds the mean torque, over
 /// control::velocity_constant.
 double static_encoder_error(const TrackingProblem& problem, const control::Controller& controller);
 

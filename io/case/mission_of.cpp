@@ -236,7 +236,8 @@ void keep_integral_action(design::CandidateStructures& structures, bool named) {
   if (!without.empty()) {
     throw InfeasibleRequirement(fmt::format(
         "goals.static_encoder_error: expected more than 0 mdeg for {0}, without an integral in the "
-        "rate or position loop, found 0. Allow an error, or take structures with integrals, such as "
+        "rate or position loop, found 0. Allow an error, or take structures with integrals, such "
+        "as "
         "PI, LL, DPF or FULL",
         fmt::join(without, ", ")));
   }

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <complex>
 
-#include <gtest/gtest.h>
 #include <Eigen/Core>
+#include <gtest/gtest.h>
 
 #include <boresight/numerics/complex_packs.hpp>
 #include <boresight/numerics/vector_clones.hpp>

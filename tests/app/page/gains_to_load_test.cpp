@@ -61,9 +61,10 @@ TEST(GainsToLoad, AreOfTheBestLoopsBesideAStateSpace) {
   auto& loops = section.loops.emplace();
   loops.structure = "PI";
   loops.design.tuning.controller = candidate_of("", 0.133).controllers[0].design.tuning.controller;
-  EXPECT_THAT(to_text(gains_to_load(report)),
-              AllOf(HasSubstr("to load: SS"), HasSubstr("state space, order 0, sampled every 0.02 s"),
-                    HasSubstr("of the best loops: PI"), HasSubstr("kr rate gain")));
+  EXPECT_THAT(
+      to_text(gains_to_load(report)),
+      AllOf(HasSubstr("to load: SS"), HasSubstr("state space, order 0, sampled every 0.02 s"),
+            HasSubstr("of the best loops: PI"), HasSubstr("kr rate gain")));
 }
 
 TEST(GainsToLoad, AreNoneWithoutAControllerThatMeetsItsConstraints) {

@@ -347,9 +347,10 @@ TEST(Tune, HoldsTheStaticErrorOfTheMeanWind) {
   const std::string path = linear_case(folder);
   const auto none = tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0 mdeg"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_THAT(none.errors,
-              HasSubstr("goals.static_encoder_error: expected more than 0 mdeg for LL+L, without an "
-                        "integral in the rate or position loop, found 0. Allow an error"));
+  EXPECT_THAT(
+      none.errors,
+      HasSubstr("goals.static_encoder_error: expected more than 0 mdeg for LL+L, without an "
+                "integral in the rate or position loop, found 0. Allow an error"));
   EXPECT_EQ(tune(path, {"--goal", "static_encoder_error=0 mdeg"}).exit_code, 0);
   const auto small =
       tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0.001 mdeg"});

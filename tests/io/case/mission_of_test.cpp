@@ -97,9 +97,11 @@ TEST(AskedStructures, HaveIntegralActionWhereNoStaticErrorIsAllowed) {
   ASSERT_EQ(left.loops.size(), 4U);
   for (const auto& one : left.loops) EXPECT_TRUE(one.structure.has_integral_action()) << one.name;
   EXPECT_EQ(asked_structures(stated, {"PI"}).loops.size(), 1U);
-  EXPECT_THAT(boresight::reference::Call([&] { asked_structures(stated, {"PI", "LL+L", "SS"}); }),
-              testing::ThrowsMessage<InfeasibleRequirement>(
-                  testing::HasSubstr("expected more than 0 mdeg for LL+L, SS, without an integral")));
+  EXPECT_THAT(boresight::reference::Call([&] {
+                asked_structures(stated, {"PI", "LL+L", "SS"});
+              }),
+              testing::ThrowsMessage<InfeasibleRequirement>(testing::HasSubstr(
+                  "expected more than 0 mdeg for LL+L, SS, without an integral")));
   EXPECT_THAT(boresight::reference::Call([&] { asked_structures(stated, {"SS"}); }),
               testing::ThrowsMessage<InfeasibleRequirement>(testing::HasSubstr("for SS, without")));
   change_goals(*stated.goals, {"static_encoder_error=0.1 mdeg"});

@@ -28,6 +28,7 @@ void print_controllers(const io::Case& stated, const design::ControllerStudy& st
   if (best == nullptr) return;
   const auto& controller = best->design.tuning.controller;
   const auto gains = io::GainUnits(stated).texts(controller);
+  // A state space has none: `boresight tune --mat` writes its matrices.
   for (std::size_t i = 0; i < gains.size(); ++i) {
     std::cout << controller.structure.gains()[i].symbol << ": " << gains[i] << '\n';
   }

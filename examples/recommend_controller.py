@@ -14,6 +14,7 @@ for method in boresight.identify(case).methods:
 tuning = boresight.tune(case)
 for controller in tuning.controllers:
     print(controller, "constraints met" if controller.constraints_met else "constraints missed")
+# A state space has no gains: `boresight tune --mat` writes its matrices.
 print("recommended:", tuning.best, tuning.best.gains if tuning.best else tuning.shortfalls)
 matching = boresight.match(case, points=4)
 for series in matching.series:

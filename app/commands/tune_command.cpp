@@ -56,15 +56,12 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
   if (!arguments.structures.empty()) {
     options.structures = structure_option(antenna, arguments.structures);
   }
-  if (arguments.no_limit) {
-    if (options.structures.empty()) options.structures = io::asked_structures(antenna);
-    if (options.structures.state_space_named) {
-      throw InvalidInput(
-          "tune: expected either --no-limit or the structure SS, whose design comes from the "
-          "limit, "
-          "found both");
-    }
-    options.structures.state_space = false;
+  if (arguments.no_limit &&
+      (options.structures.empty() ? io::asked_structures(antenna) : options.structures)
+          .state_space_named) {
+    throw InvalidInput(
+        "tune: expected either --no-limit or the structure SS, whose design comes from the limit, "
+        "found both");
   }
   arguments.outputs.require_writable();
 
@@ -105,6 +102,10 @@ Report tune_case(const TuneArguments& arguments, const std::function<bool()>& in
     return report;
   }
   report.assumed = assumed_inputs(antenna);
+  if (arguments.no_limit) {
+    if (options.structures.empty()) options.structures = mission.structures;
+    options.structures.state_space = false;
+  }
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   design::ControllerStudy study =
       study_controllers(mission, ensemble, options, design::ChoiceDetail::verified);

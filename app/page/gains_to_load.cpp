@@ -70,11 +70,15 @@ Document of_evaluation(const EvaluateSection& section) {
   if (section.decision) place = section.decision->candidates[section.decision->worth].candidate;
   const Candidate& candidate = section.candidates[place];
   if (!candidate.feasible()) return {};
-  return gains_table(
+  const auto& structure = candidate.chosen_controller()->design.tuning.controller.structure;
+  const std::string title =
       fmt::format("to load: {}, {}", candidate.controllers[*candidate.chosen].structure,
-                  candidate.path.empty() ? "the antenna as it is" : candidate.name),
-      candidate.chosen_controller()->design.tuning.controller.structure,
-      candidate.gains.at(*candidate.chosen));
+                  candidate.path.empty() ? "the antenna as it is" : candidate.name);
+  if (structure.state_space() != nullptr && !candidate.path.empty()) {
+    return subheading("Controller " + title) +
+           wrapped(state_space_text(structure) + ", of a case with this change.", "  ");
+  }
+  return gains_table(title, structure, candidate.gains.at(*candidate.chosen));
 }
 
 }  // namespace

@@ -318,7 +318,7 @@ void describe(io::Visitor& v, const MatchSection& section) {
   std::vector<design::RankedMotors> ranked;
   if (!v.by_example()) ranked = ranked_motors(section);
   v.list("compared_motors", ranked,
-         "Motors with their own recommended controller as evaluate compares antennas, least first; "
+         "Motors with their own recommended loops, as evaluate compares antennas, least first; "
          "empty without runs in wind.",
          [&](const design::RankedMotors& one) { describe_ranked(v, section, one); });
   v.list("variants", section.variants, "How the optimum moves, tuned on single plants.",

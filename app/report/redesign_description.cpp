@@ -292,9 +292,11 @@ void describe(io::Visitor& v, const TuningSection& section) {
   v.number("static_error", section.static_error, unit::millidegree,
            "Boresight error at rest in the mean wind, structural flexure included; not in the rms.",
            positive);
-  v.number("static_encoder_error", section.static_encoder_error, unit::millidegree,
-           "Encoder error at rest in the mean wind, which integral action removes; not in the rms.",
-           positive);
+  v.number(
+      "static_encoder_error", section.static_encoder_error, unit::millidegree,
+      "Encoder error that leakage leaves at rest in the mean wind, without what compensation of "
+      "the flexure moves the encoder by; not in the rms.",
+      positive);
   v.optional_members(section.wind_mast, [&](const plant::WindMast& mast) {
     v.object("wind_mast", mast, "Where the case names one.");
   });

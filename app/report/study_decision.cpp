@@ -82,7 +82,7 @@ Sentences unstable_now(const TuneSection& section) {
   return sentences;
 }
 
-// Motors compared as evaluate compares antennas, by simulation; empty without runs of several.
+// Motors compared with their recommended loops, by simulation; empty without runs of several.
 std::string decide_motors(const MatchSection& section) {
   const auto ranked = ranked_motors(section);
   const auto built = std::ranges::find(ranked, as_built(section), &design::RankedMotors::point);
@@ -96,7 +96,7 @@ std::string decide_motors(const MatchSection& section) {
   }
   const MatchPoint& best = section.points[ranked.front().point];
   return fmt::format(
-      "Compared as `evaluate` compares, simulated, over {} plants, limit cycle included: {}: {}.",
+      "Compared with loops, simulated, over {} plants, limit cycle included: {}: {}.",
       std::max<std::size_t>(section.members, 1), fmt::join(figures, ", "),
       !built->tied
           ? fmt::format("change to {:.4g} disks, {:.1f} % better than as built", best.disks,

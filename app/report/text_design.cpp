@@ -263,7 +263,7 @@ Document document_of(const TuningSection& section) {
   rows.push_back({"structural flexure beyond the encoder alone", mdeg(section.flexure_rms)});
   rows.push_back(
       {"static boresight error in the mean wind (not in the rms)", mdeg(section.static_error)});
-  rows.push_back({"static encoder error in the mean wind (not in the rms)",
+  rows.push_back({"static encoder error by leakage in the mean wind (not in the rms)",
                   mdeg(section.static_encoder_error)});
   text += table(rows) + wind_part(section) + "\n";
   rows = {{"band", "beamwidth mdeg", "mean loss dB, two equal axes", "static error would add"}};

@@ -316,7 +316,7 @@ Document goals_part(const TuneSection& section) {
     text += fmt::format("; bandwidth {:.4g} Hz", *goals.bandwidth / two_pi);
   }
   if (goals.static_encoder_error) {
-    text += fmt::format("; encoder error at rest in the mean wind at most {:.4g} mdeg",
+    text += fmt::format("; encoder error by leakage in the mean wind at most {:.4g} mdeg",
                         *goals.static_encoder_error / millidegree);
   }
   if (goals.standstill) {

@@ -37,7 +37,8 @@ void describe_goals(io::Visitor& v, const TuneSection& section) {
   v.number("bandwidth", goals.bandwidth, unit::hertz_of_radians,
            "Least, of the position loop; null: none asked for.");
   v.number("static_encoder_error", goals.static_encoder_error, unit::millidegree,
-           "Largest, at rest in the mean wind; null: no goal.", {.minimum = 0.0});
+           "Largest that leakage leaves at rest in the mean wind; null: no goal.",
+           {.minimum = 0.0});
   v.number("sensitivity_peak_standstill",
            goals.standstill ? std::optional(goals.standstill->sensitivity_peak) : std::nullopt,
            unit::ratio, "Largest Ms at the valve command near standstill; null: no goal.");

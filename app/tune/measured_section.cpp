@@ -56,7 +56,7 @@ void add_notes(MeasuredTuneSection& section) {
   notes.push_back(fmt::format(
       "constraints applied: maximum sensitivity Ms and control effort; not applied: Ms at "
       "standstill{}",
-      section.other_goals ? ", margins, bandwidth, gust demand" : ""));
+      section.other_goals ? ", margins, bandwidth, gust demand, static error" : ""));
 }
 
 }  // namespace

@@ -75,8 +75,10 @@ std::string found_and_limit(const NormalisedConstraint& goal, const design::Cons
     case GoalKind::gust_torque:
       return maximum(goals.gust_torque.value_or(0.0), " N.m");
     case GoalKind::static_encoder_error: {
-      const double limit = goals.static_encoder_error.value_or(0.0) / millidegree;
-      return maximum(limit, " mdeg");
+      const double limit = goals.static_encoder_error.value_or(0.0);
+      return fmt::format("{:.4g} mdeg, limit at most {:.4g}",
+                         design::found_static_error(goal, limit) / millidegree,
+                         limit / millidegree);
     }
     case GoalKind::standstill_peak:
       return maximum(goals.standstill ? goals.standstill->sensitivity_peak : 0.0, "");
@@ -114,6 +116,24 @@ std::string delay_text(const TuneSection& section) {
       "dynamics has a bandwidth of {:.3g} Hz, less than the {:.3g} Hz required. Require less, or "
       "shorten the delay.",
       1e3 * delay, peak, reached / two_pi, *goals.bandwidth / two_pi);
+}
+
+// Where no error at rest is allowed and no structure has an integral.
+std::string integral_text(const TuneSection& section) {
+  if (section.goals.static_encoder_error != 0.0) return "";
+  std::vector<std::string> without;
+  for (const auto& row : section.controllers) {
+    if (!tuned(row)) continue;
+    if (row.design.tuning.controller.structure.has_integral_action()) return "";
+    if (std::ranges::find(without, row.structure) == without.end())
+      without.push_back(row.structure);
+  }
+  return fmt::format(
+      " A static encoder error of 0 needs an integral in the rate or position loop, which {} {} "
+      "not "
+      "have. Allow the error found, or take structures with integrals, such as PI, LL, DPF or "
+      "FULL.",
+      fmt::join(without, ", "), without.size() == 1 ? "does" : "do");
 }
 
 // The rms in wind that budgets are held against, and what else the nonlinear antenna adds.
@@ -197,16 +217,18 @@ void find_unmet_goals(const TuneSection& section, double speed, TunedFor purpose
     return;
   }
   const auto standing = nearest->design.tuning.limits.size();
+  // Of a limit of 0 no percentage says anything.
+  const double worst = nearest->design.tuning.worst_constraint;
+  const std::string beyond =
+      worst < 100.0 ? fmt::format(", {:.1f} % beyond its worst limits", 100.0 * (worst - 1.0)) : "";
   shortfalls.push_back(
       {fmt::format("No controller of {} meets every constraint at {:.3g} m/s{}{}.",
                    fmt::join(names, ", "), speed, robust ? " on " + plants : "",
                    standing > 1 ? ": the constraints are mutually incompatible" : ""),
-       fmt::format("{} comes nearest, {:.1f} % beyond its worst limits: {}.{}{}",
-                   name_and_purpose(*nearest),
-                   100.0 * (nearest->design.tuning.worst_constraint - 1.0),
+       fmt::format("{} comes nearest{}: {}.{}{}{}", name_and_purpose(*nearest), beyond,
                    standing_goals(*nearest, section.goals),
                    assumed_demand(nearest->design.tuning, section.demand_assumption),
-                   delay_text(section))});
+                   delay_text(section), integral_text(section))});
 }
 
 // The structures that were tuned, in the order of the table.

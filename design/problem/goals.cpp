@@ -15,6 +15,8 @@ namespace {
 using control::LoopBreak;
 using control::LoopQuantity;
 
+constexpr double least_static_error = 1e-12;  // rad: what a limit of 0 counts as
+
 void expect(bool met, std::string_view goal, std::string_view expected, double found) {
   if (met) return;
   throw InvalidInput(fmt::format("constraints: expected {} {}, found {:g}", goal, expected, found));
@@ -147,11 +149,10 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
 
 NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
                                              double gear_ratio, double limit) {
-  constexpr double least = 1e-12;
   NormalisedConstraint goal;
   goal.kind = GoalKind::static_encoder_error;
   goal.ratio = std::abs(demand) / control::velocity_constant(controller) / gear_ratio /
-               std::max(limit, least);
+               std::max(limit, least_static_error);
   std::size_t k = 0;
   for (const auto& block : controller.structure.blocks()) {
     const bool in_loop =
@@ -160,6 +161,10 @@ NormalisedConstraint static_error_constraint(const control::Controller& controll
     k += block.gains.size();
   }
   return goal;
+}
+
+double found_static_error(const NormalisedConstraint& constraint, double limit) {
+  return constraint.ratio * std::max(limit, least_static_error);
 }
 
 void append_standstill_peaks(const control::LoopEvaluation& evaluation,

@@ -114,6 +114,8 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
 /// 1e-12 rad counts as that.
 NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
                                              double gear_ratio, double limit);
+/// The error (rad at the sky) of such a constraint of that limit.
+double found_static_error(const NormalisedConstraint& constraint, double limit);
 /// Appends the constraint of Constraints::standstill, from one evaluation with its friction.
 void append_standstill_peaks(const control::LoopEvaluation& evaluation,
                              const Standstill& standstill,

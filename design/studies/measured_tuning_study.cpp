@@ -180,7 +180,8 @@ MeasuredTuningStudy study_measured_tuning(const Mission& mission,
   study.channels.emplace(plant, study.oil, problem.plant.drive.tachometer_corner);
   const Constraints goals = constraints(mission);
   study.goals = {goals.sensitivity_peak, goals.control_effort};
-  study.other_goals = goals.ask_for_margins() || goals.ask_for_gusts() || goals.bandwidth;
+  study.other_goals =
+      goals.ask_for_margins() || goals.ask_for_gusts() || goals.static_encoder_error.has_value();
 
   const MeasuredProblem measured{*study.channels, problem.gear_ratio, problem.delay,
                                  problem.noise,   problem.wind,       problem.rms_band};

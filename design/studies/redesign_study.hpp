@@ -83,7 +83,7 @@ struct RecommendedDesign {
   double torque_limited_wind_speed = std::numeric_limits<double>::infinity();
   /// rad: static_boresight_error, in no rms; the pointing model must remove it.
   double static_error = 0.0;
-  double static_encoder_error = 0.0;  // rad, of it what the loops leave
+  double static_encoder_error = 0.0;  // rad: design::static_encoder_error
   struct BandLoss {
     PointingBand band;
     double mean_loss_db = 0.0;     // two equal axes, static error excluded

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
 #include <boresight/numerics/error.hpp>
@@ -220,6 +221,11 @@ Design assess(const TrackingProblem& problem, const control::Controller& control
   control::LoopEvaluator evaluator = make_evaluator(problem);
   given.evaluation = evaluator.evaluate(controller, false);
   given.worst_constraint = worst_constraint(given.evaluation, goals);
+  if (const auto& limit = goals.static_encoder_error) {
+    const auto found = static_error_constraint(controller, mean_wind_load(problem).demand,
+                                               problem.gear_ratio, *limit);
+    given.worst_constraint = std::max(given.worst_constraint, found.ratio);
+  }
   if (!control::stability(problem.plant, controller, problem.delay, evaluator.response().frequency)
            .stable()) {
     given.status = TuningStatus::unstable;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/loops/closed_loop.hpp>
+#include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
 
 namespace boresight::design {
@@ -20,12 +21,9 @@ PlantEvaluator::PlantEvaluator(std::string name, const TrackingProblem& problem,
       delay_(problem.delay),
       gear_ratio_(problem.gear_ratio),
       goals_(goals),
+      mean_(mean_wind_load(problem)),
       frequency_(analysis_grid(problem)),
       evaluator_(make_adaptive_evaluator(problem, wind, tolerance)) {
-  const auto& drive = problem.plant.drive;
-  mean_.torque =
-      plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
-  mean_.demand = drive.leakage_rate / drive.oil_stiffness * mean_.torque;
   if (goals.ask_for_gusts()) {
     if (problem.climate.empty()) {
       evaluator_.look_at_gusts(true);

@@ -2,6 +2,7 @@
 
 #include <boresight/control/loops/loop_evaluator.hpp>
 #include <boresight/control/loops/state_space_controller.hpp>
+#include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/design/verification/linear_prediction.hpp>
 #include <boresight/plant/wind/wind.hpp>
 
@@ -35,11 +36,8 @@ double static_boresight_error(const TrackingProblem& problem,
 }
 
 double static_encoder_error(const TrackingProblem& problem, const control::Controller& controller) {
-  const double torque =
-      plant::mean_wind_torque(problem.wind.site, problem.wind.mean_speed) / problem.gear_ratio;
-  const auto& drive = problem.plant.drive;
-  return std::abs(drive.leakage_rate / drive.oil_stiffness * torque) /
-         control::velocity_constant(controller) / problem.gear_ratio;
+  return std::abs(mean_wind_load(problem).demand) / control::velocity_constant(controller) /
+         problem.gear_ratio;
 }
 
 }  // namespace boresight::design

@@ -219,35 +219,6 @@ double tightest_budget(const Case& antenna) {
   return tightest_budget(mission);
 }
 
-namespace {
-
-bool needs_integral_action(const Case& stated) {
-  const auto& limit = stated.goals->static_encoder_error;
-  return limit && limit->value == 0.0;
-}
-
-// A static error of 0 leaves those with an integral; of named ones each must have one.
-void keep_integral_action(design::CandidateStructures& structures, bool named) {
-  std::vector<std::string> without;
-  for (const auto& one : structures.loops) {
-    if (named && !one.structure.has_integral_action()) without.push_back(one.name);
-  }
-  if (structures.state_space_named) without.emplace_back(design::state_space_name);
-  if (!without.empty()) {
-    throw InfeasibleRequirement(fmt::format(
-        "goals.static_encoder_error: expected more than 0 mdeg for {0}, without an integral in the "
-        "rate or position loop, found 0. Allow an error, or take structures with integrals, such "
-        "as "
-        "PI, LL, DPF or FULL",
-        fmt::join(without, ", ")));
-  }
-  std::erase_if(structures.loops,
-                [](const auto& one) { return !one.structure.has_integral_action(); });
-  structures.state_space = false;
-}
-
-}  // namespace
-
 design::CandidateStructures asked_structures(const Case& stated, std::vector<std::string> names) {
   if (names.empty()) names = stated.tuning->structures;
   for (const auto& name : names) {
@@ -268,7 +239,13 @@ design::CandidateStructures asked_structures(const Case& stated, std::vector<std
     for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
   }
   for (const auto& name : names) structures.loops.push_back({name, loop_structure(stated, name)});
-  if (needs_integral_action(stated)) keep_integral_action(structures, !is_usual);
+  // Of no use without an integral; named ones are tuned, and the answer says what they miss.
+  if (is_usual && stated.goals->static_encoder_error &&
+      stated.goals->static_encoder_error->value == 0.0) {
+    std::erase_if(structures.loops,
+                  [](const auto& one) { return !one.structure.has_integral_action(); });
+    structures.state_space = structures.state_space_named;
+  }
   return structures;
 }
 

@@ -17,10 +17,9 @@ design::Mission mission_of(const Case& stated);
 /// The structures of these names, or without names those that the case's [tuning] asks for, else
 /// PI, LL, DPF, FULL, LL+L, FULL+L+C, the case's own and, if the case has a [simulation] that can
 /// show its limit cycles, a state-space controller. design::state_space_name asks for the latter by
-/// name; alone, beside the loops that no names would give. With a static_encoder_error of 0 only
-/// those with integral action (LoopStructure).
-/// @throws InvalidInput as loop_structure, and for a name given twice; InfeasibleRequirement for a
-/// named structure without integral action where the static_encoder_error is 0.
+/// name; alone, beside the loops that no names would give. Where a static_encoder_error of 0 is
+/// stated, only those with integral action (LoopStructure), unless named.
+/// @throws InvalidInput as loop_structure, and for a name given twice.
 design::CandidateStructures asked_structures(const Case& stated,
                                              std::vector<std::string> names = {});
 

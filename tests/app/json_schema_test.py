@@ -411,7 +411,7 @@ class Redesign(unittest.TestCase):
         self.assertTrue(loops["design"]["gains"])
         self.assertLess(tuning["evaluated_rms_mdeg"], 0.98 * loops["simulated_rms_mdeg"])
 
-    def test_holds_the_design_against_other_winds_and_budgets(self):
+    def test_compares_the_design_with_other_winds_and_budgets(self):
         tuning = report("redesign")["tuning"]
         best = tuning["design"]["boresight_rms_mdeg"]
         held = {model["model"]: model["boresight_rms_mdeg"] for model in tuning["wind_models"]}

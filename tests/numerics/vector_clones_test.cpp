@@ -53,7 +53,7 @@ TEST(VectorClones, UseRegistersAsWideAsTheyMay) {
 }
 
 // Their sizes decide in which order Eigen sums a product.
-TEST(VectorClones, ComeWithBlocksOfEigensThatNoProcessorsCachesDecide) {
+TEST(VectorClones, GoWithEigenBlockSizesThatDoNotDependOnTheProcessor) {
   EXPECT_EQ(Eigen::l1CacheSize(), Eigen::internal::defaultL1CacheSize);
   EXPECT_EQ(Eigen::l2CacheSize(), Eigen::internal::defaultL2CacheSize);
   EXPECT_EQ(Eigen::l3CacheSize(), Eigen::internal::defaultL3CacheSize);

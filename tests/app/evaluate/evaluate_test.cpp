@@ -230,6 +230,14 @@ TEST(Evaluate, EndsWithCode3WhereNoCandidateMeetsANeededBudget) {
   EXPECT_THAT(run.errors, HasSubstr(antenna + ": NOT MET: stated Ka-band need"));
 }
 
+// A state space starts from the loops that are best in the time domain.
+TEST(Evaluate, RefusesAStateSpaceWithoutTheTimeDomainWhereItIsNamed) {
+  const auto run = run_program({"evaluate", case_path("dss14-70m"), proposal_path("half-flywheels"),
+                                "--structure", "PI", "SS", "--time-domain", "none"});
+  EXPECT_EQ(run.exit_code, 2) << run.errors;
+  EXPECT_THAT(run.errors, HasSubstr("expected the time domain for a state space (SS)"));
+}
+
 TEST(Evaluate, RefusesBadProposalsBeforeAnyWork) {
   const ScratchFolder folder;
   const std::string one =

@@ -341,24 +341,46 @@ TEST(Tune, SaysWhichGoalsContradictEachOther) {
   EXPECT_EQ(tune(path, {"--goal", "sensitivity_peak=1.2"}).exit_code, 0);
 }
 
-// A leaky integral leaves an error, an integral none; what a limit costs stands among the others.
-TEST(Tune, HoldsTheStaticErrorOfTheMeanWind) {
+TEST(Tune, RefusesAStateSpaceByNameWithoutTheLimitItComesFrom) {
+  const ScratchFolder folder;
+  const auto named = tune(small_case(folder), {"--structure", "PI", "SS"});
+  EXPECT_EQ(named.exit_code, 2);
+  EXPECT_THAT(named.errors, HasSubstr("expected either --no-limit or the structure SS"));
+}
+
+// Unless it is named, it is left out; the structure in use is tuned as with the limit.
+TEST(Tune, LeavesTheStateSpaceOutWithoutTheLimit) {
+  const ScratchFolder folder;
+  const std::string path = small_case(folder, "\n[gains]\nstructure = \"PI-0\"\n");
+  const std::string json = folder.file("report.json");
+  const auto run = run_program({"tune", path, "--no-limit", "--starts", "1", "--json", json});
+  EXPECT_EQ(run.exit_code, 0) << run.errors;
+  EXPECT_THAT(content_of(json),
+              ContainsRegex("\"structures\": \\[[^]]*\"FULL\\+L\\+C\"[^]]*\"PI-0\""));
+  EXPECT_THAT(content_of(json), Not(HasSubstr("\"structure\": \"SS\"")));
+}
+
+// A leaky integral leaves an error in the mean wind, an integral none.
+TEST(Tune, LimitsTheStaticErrorInTheMeanWind) {
   const ScratchFolder folder;
   const std::string path = linear_case(folder);
   const auto none = tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0 mdeg"});
   EXPECT_EQ(none.exit_code, 3);
-  EXPECT_THAT(
-      none.errors,
-      HasSubstr("goals.static_encoder_error: expected more than 0 mdeg for LL+L, without an "
-                "integral in the rate or position loop, found 0. Allow an error"));
+  EXPECT_THAT(none.errors, ContainsRegex("comes nearest: .*static encoder error.*: [0-9.]+ mdeg, "
+                                         "limit at most 0"));
+  EXPECT_THAT(none.errors,
+              HasSubstr("A static encoder error of 0 needs an integral in the rate or position "
+                        "loop, which LL+L does not have. Allow the error found, or take"));
   EXPECT_EQ(tune(path, {"--goal", "static_encoder_error=0 mdeg"}).exit_code, 0);
   const auto small =
       tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0.001 mdeg"});
   EXPECT_EQ(small.exit_code, 3);
-  EXPECT_THAT(small.errors, ContainsRegex("static encoder error.*: [0-9.]+ mdeg, limit at most "
-                                          "0.001"));
-  EXPECT_THAT(small.output,
-              ContainsRegex("encoder error at rest in the\\s+mean wind at most 0.001 mdeg"));
+  EXPECT_THAT(small.errors,
+              ContainsRegex("static encoder error.*: [0-9.]+ mdeg, limit at most 0.001"));
+  EXPECT_THAT(small.errors, Not(HasSubstr("needs an integral")));
+  EXPECT_THAT(
+      small.output,
+      ContainsRegex("encoder error by leakage in\\s+the mean\\s+wind at most 0.001\\s+mdeg"));
 }
 
 // With 30 ms and Ms 2 one integrator has 0.457/0.03 rad/s.

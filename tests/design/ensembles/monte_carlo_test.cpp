@@ -183,7 +183,7 @@ TEST(MonteCarlo, TellsWhichGoalsBreak) {
 }
 
 // On each plant by its own leakage and oil stiffness.
-TEST(MonteCarlo, HoldsTheStaticErrorOfEachPlantAgainstItsLimit) {
+TEST(MonteCarlo, ComparesTheStaticErrorOfEachPlantWithItsLimit) {
   MonteCarlo leaky = study(20);
   leaky.controller = reference::lag_loops();
   std::vector<double> errors;

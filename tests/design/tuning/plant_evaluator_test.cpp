@@ -152,7 +152,7 @@ TEST(StaticEncoderError, IsMetByWhatIsTunedForIt) {
   EXPECT_TRUE(std::ranges::any_of(tuned.limits, [](const ActiveConstraint& limit) {
     return limit.goal.kind == GoalKind::static_encoder_error && limit.shadow_price > 0.0;
   }));
-  // Without an integral none is small enough for nothing.
+  // A limit of 0 is infeasible without an integral.
   EXPECT_NE(tune(problem, structure, within(0.0), options).status, TuningStatus::optimal);
 }
 

@@ -264,9 +264,7 @@ plant::StateSpace with_rate_command(const plant::StateSpace& controller) {
 
 double velocity_constant(const Controller& controller) {
   if (const plant::StateSpace* system = controller.structure.state_space()) {
-    const auto encoder = std::ranges::find(system->inputs, "encoder");
-    if (encoder == system->inputs.end()) return 0.0;
-    const Eigen::Index column = encoder - system->inputs.begin();
+    const Eigen::Index column = plant::input_index(*system, "encoder");
     const Eigen::Index row = plant::output_index(*system, "valve_demand");
     const double found =
         std::abs(numerics::transfer_matrix(system->a, system->b.col(column), system->c.row(row),

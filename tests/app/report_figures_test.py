@@ -73,6 +73,17 @@ class Figures(unittest.TestCase):
                                                         for v in values if v is not None))
 
 
+def breaks_of(design):
+    """Where the controller has a loop: a state space is cut at the valve command only."""
+    return [loop for loop in design["loop_breaks"] if loop["sensitivity_peak_1"] > 1]
+
+
+def around(series, x):
+    """The curve's values at its points on either side of x."""
+    after = bisect.bisect_left(series["x"], x)
+    return series["y"][after - 1:after + 1]
+
+
 class TunedControllers(Near):
     def setUp(self):
         self.found = report("redesign")
@@ -103,7 +114,7 @@ class TunedControllers(Near):
 
     def test_sensitivity_peaks_where_the_verification_says(self):
         figure = self.figures["tuned-sensitivity"]
-        for loop in self.design["loop_breaks"]:
+        for loop in breaks_of(self.design):
             curve = series_of(figure, 0, loop["loop_break"])
             peak = max(curve["y"])
             self.assertLess(peak, loop["sensitivity_peak_1"] * (1 + 1e-5))
@@ -113,7 +124,7 @@ class TunedControllers(Near):
 
     def test_nyquist_curves_keep_the_distance_of_their_peaks(self):
         figure = self.figures["tuned-nyquist"]
-        for loop in self.design["loop_breaks"]:
+        for loop in breaks_of(self.design):
             curve = series_of(figure, 0, loop["loop_break"])
             distance = min(math.hypot(1 + x, y) for x, y in zip(curve["x"], curve["y"]))
             self.assertNear(distance, 1 / loop["sensitivity_peak_1"], 2e-3)
@@ -128,12 +139,12 @@ class TunedControllers(Near):
         marks = [mark for mark in figure["panels"][0]["marks"] if mark["y"] == 0]
         self.assertGreaterEqual(len(marks), 3)
         for mark in marks:
-            nearest = min(abs(at(series, mark["x"])) for series in figure["panels"][0]["series"])
-            self.assertLess(nearest, 0.1)  # dB
+            ends = [around(series, mark["x"]) for series in figure["panels"][0]["series"]]
+            self.assertTrue(any(min(y) < 0.1 and max(y) > -0.1 for y in ends), ends)  # dB
 
     def test_bode_plot_is_marked_with_the_margins_of_the_table(self):
         gain, phase = self.figures["tuned-open-loop"]["panels"]
-        for loop in self.design["loop_breaks"]:
+        for loop in breaks_of(self.design):
             margins = loop["margins"]
             self.assertTrue(any(abs((mark["y"] + 180) % 360 - side) < 0.5
                                 for mark in phase["marks"]
@@ -149,7 +160,10 @@ class TunedControllers(Near):
     def test_sensitivity_over_the_ensemble_reaches_its_members(self):
         figure = self.figures["tuned-ensemble-sensitivity"]
         members = self.found["tuning"]["ensemble"]["members"]
-        for place, panel in enumerate(figure["panels"]):
+        names = [loop["loop_break"] for loop in self.design["loop_breaks"]]
+        self.assertEqual(len(figure["panels"]), len(breaks_of(self.design)))
+        for panel in figure["panels"]:
+            place = names.index(panel["y"]["label"].removeprefix("|S|, "))
             band = panel["series"][0]
             highest = max(member["sensitivity_peaks_1"][place] for member in members
                           if member["stable"])

@@ -4,9 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lag_loops.hpp"
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/page/gains_to_load.hpp>
-#include <boresight/control/loops/state_space_controller.hpp>
 
 namespace boresight::app {
 namespace {
@@ -47,9 +47,7 @@ TEST(GainsToLoad, AreOfTheProposalWorthItsCost) {
 
 // A control computer may not run a state space: the best loops' gains stand below it.
 TEST(GainsToLoad, AreOfTheBestLoopsBesideAStateSpace) {
-  auto system = plant::static_gain(Eigen::MatrixXd::Ones(1, 1), {"tachometer"}, {"valve_demand"});
-  system.sample_time = 0.02;
-  const auto controller = control::state_space_controller("state space, order 0", system);
+  const auto controller = reference::lag_loops_as_state_space("state space, order 2");
   Report report;
   TuningSection& section = report.tuning.emplace();
   section.name = "SS";
@@ -63,7 +61,7 @@ TEST(GainsToLoad, AreOfTheBestLoopsBesideAStateSpace) {
   loops.design.tuning.controller = candidate_of("", 0.133).controllers[0].design.tuning.controller;
   EXPECT_THAT(
       to_text(gains_to_load(report)),
-      AllOf(HasSubstr("to load: SS"), HasSubstr("state space, order 0, sampled every 0.02 s"),
+      AllOf(HasSubstr("to load: SS"), HasSubstr("state space, order 2, sampled every 0.02 s"),
             HasSubstr("of the best loops: PI"), HasSubstr("kr rate gain")));
 }
 

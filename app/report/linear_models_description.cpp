@@ -22,7 +22,7 @@ void describe(io::Visitor& v, const LinearModels& models) {
   v.optional_members(models.state_space_controller, [&](const plant::StateSpace& controller) {
     v.object("state_space_controller", controller,
              "The state-space controller, sampled: of `state_space`, or SS where it is one of "
-             "name it.");
+             "the structures.");
   });
 }
 

@@ -130,8 +130,7 @@ std::string integral_text(const TuneSection& section) {
   }
   return fmt::format(
       " A static encoder error of 0 needs an integral in the rate or position loop, which {} {} "
-      "not "
-      "have. Allow the error found, or take structures with integrals, such as PI, LL, DPF or "
+      "not have. Allow the error found, or take structures with integrals, such as PI, LL, DPF or "
       "FULL.",
       fmt::join(without, ", "), without.size() == 1 ? "does" : "do");
 }

@@ -262,7 +262,7 @@ plant::StateSpace with_rate_command(const plant::StateSpace& controller) {
   return system;
 }
 
-double velocity_constant(const Controller& controller) {
+double static_encoder_gain(const Controller& controller) {
   if (const plant::StateSpace* system = controller.structure.state_space()) {
     const Eigen::Index column = plant::input_index(*system, "encoder");
     const Eigen::Index row = plant::output_index(*system, "valve_demand");

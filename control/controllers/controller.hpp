@@ -45,10 +45,10 @@ struct CompensatorResponse {
 /// torque and R P that to the encoder, each times -1; C is 0.
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
 
-/// Velocity constant (1/s): valve demand at rest per angle of the encoder's error. For loops it is
-/// the product of the gains of rate and position path, infinite with an integral in either; for a
+/// Static gain (1/s) from the encoder's error to the valve demand, at rest. For loops it is the
+/// product of the gains of rate and position path, infinite with an integral in either; for a
 /// state space the static gain from encoder to valve_demand, infinite with a pole at z = 1.
-double velocity_constant(const Controller& controller);
+double static_encoder_gain(const Controller& controller);
 
 /// The Nyquist frequency of a state space (rad/s); infinite for loops, which are continuous. Beyond
 /// it the controller's response mirrors what is below, so that peaks and margins there are images.

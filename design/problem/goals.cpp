@@ -147,12 +147,17 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
   }
 }
 
+double static_encoder_error(const control::Controller& controller, double demand,
+                            double gear_ratio) {
+  return std::abs(demand) / control::static_encoder_gain(controller) / gear_ratio;
+}
+
 NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
                                              double gear_ratio, double limit) {
   NormalisedConstraint goal;
   goal.kind = GoalKind::static_encoder_error;
-  goal.ratio = std::abs(demand) / control::velocity_constant(controller) / gear_ratio /
-               std::max(limit, least_static_error);
+  goal.ratio =
+      static_encoder_error(controller, demand, gear_ratio) / std::max(limit, least_static_error);
   std::size_t k = 0;
   for (const auto& block : controller.structure.blocks()) {
     const bool in_loop =

@@ -45,7 +45,7 @@ struct Constraints {
   std::optional<double> gust_torque = std::nullopt;
   double crest_factor = 3.5;
   /// Largest error of the encoder at rest in the problem's mean wind (rad at the sky): the leakage
-  /// flow that holds the mean torque over control::velocity_constant. 0 asks for an integral.
+  /// flow that holds the mean torque over control::static_encoder_gain. 0 asks for an integral.
   std::optional<double> static_encoder_error = std::nullopt;
   std::optional<Standstill> standstill = std::nullopt;
 
@@ -110,8 +110,12 @@ struct MeanWindLoad {
 void append_normalised_constraints(const control::LoopEvaluation& evaluation,
                                    const Constraints& goals, const MeanWindLoad& mean,
                                    std::vector<NormalisedConstraint>& ratios);
-/// The ratio of Constraints::static_encoder_error. `demand`: MeanWindLoad::demand; a limit below
-/// 1e-12 rad counts as that.
+/// Encoder error (rad at the sky) that a leakage flow (MeanWindLoad::demand) leaves at rest: over
+/// control::static_encoder_gain and the gear ratio.
+double static_encoder_error(const control::Controller& controller, double demand,
+                            double gear_ratio);
+/// The ratio of Constraints::static_encoder_error, to that error. A limit below 1e-12 rad counts as
+/// that.
 NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
                                              double gear_ratio, double limit);
 /// The error (rad at the sky) of such a constraint of that limit.

@@ -36,8 +36,7 @@ double static_boresight_error(const TrackingProblem& problem,
 }
 
 double static_encoder_error(const TrackingProblem& problem, const control::Controller& controller) {
-  return std::abs(mean_wind_load(problem).demand) / control::velocity_constant(controller) /
-         problem.gear_ratio;
+  return static_encoder_error(controller, mean_wind_load(problem).demand, problem.gear_ratio);
 }
 
 }  // namespace boresight::design

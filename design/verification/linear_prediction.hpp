@@ -29,7 +29,7 @@ double static_boresight_error(const TrackingProblem& problem,
 
 /// Encoder error (rad at the sky, magnitude) at rest in the problem's mean wind, less what
 /// compliance compensation moves the encoder by: the leakage flow that holds the mean torque, over
-/// control::velocity_constant.
+/// control::static_encoder_gain.
 double static_encoder_error(const TrackingProblem& problem, const control::Controller& controller);
 
 }  // namespace boresight::design

@@ -78,13 +78,13 @@ TEST(CompensatorResponse, IsThatOfTheStateSpace) {
   }
 }
 
-// Far below every corner R P is the velocity constant, or grows without bound with an integral.
-TEST(VelocityConstant, IsTheResponseToTheEncoderAtRest) {
+// Far below every corner R P is the static gain, or grows without bound with an integral.
+TEST(StaticEncoderGain, IsTheResponseToTheEncoderAtRest) {
   reference::RandomNumbers random(102);
   for (const auto& structure : structures) {
     const Controller controller = reference::random_controller(random, structure);
     const auto at_rest = compensator_response(controller, 1e-9);
-    const double found = velocity_constant(controller);
+    const double found = static_encoder_gain(controller);
     EXPECT_EQ(structure.has_integral_action(), std::isinf(found)) << structure.name();
     if (std::isinf(found)) {
       EXPECT_GT(std::abs(at_rest.rate * at_rest.position), 1e3);
@@ -92,12 +92,13 @@ TEST(VelocityConstant, IsTheResponseToTheEncoderAtRest) {
       EXPECT_LT(relative_error(found, std::abs(at_rest.rate * at_rest.position)), 1e-12);
     }
   }
-  const double leaky = velocity_constant(reference::lag_loops());
-  EXPECT_LT(relative_error(velocity_constant(reference::lag_loops_as_state_space()), leaky), 1e-12);
+  const double leaky = static_encoder_gain(reference::lag_loops());
+  EXPECT_LT(relative_error(static_encoder_gain(reference::lag_loops_as_state_space()), leaky),
+            1e-12);
   auto integrating = *reference::lag_loops_as_state_space().structure.state_space();
   integrating.a.row(0).setZero();
   integrating.a(0, 0) = 1.0;
-  EXPECT_TRUE(std::isinf(velocity_constant(state_space_controller("integrating", integrating))));
+  EXPECT_TRUE(std::isinf(static_encoder_gain(state_space_controller("integrating", integrating))));
 }
 
 TEST(CompensatorResponse, HasTheLogarithmicDerivativesOfItsGains) {

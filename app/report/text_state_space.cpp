@@ -112,10 +112,9 @@ Document document_of(const design::StateSpaceStudy& study, const TimeDomainSecti
   text += wrapped(
       "It also meets the limit on Ms at standstill and is stable with its loop open. It is "
       "compared with the loops, and recommended only where SS is among the structures: it has no "
-      "loops "
-      "to close one by one, no constraint on the rate loop alone, and no anti-windup. --mat writes "
-      "it as state_space_controller, which benchmark, simulate and "
-      "montecarlo take with `--controller FILE --part state_space_controller`.",
+      "loops to close one by one, no constraint on the rate loop alone, and no anti-windup. --mat "
+      "writes it as state_space_controller, which benchmark, simulate and montecarlo take with "
+      "`--controller FILE --part state_space_controller`.",
       "  ");
   return text;
 }

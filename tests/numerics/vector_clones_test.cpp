@@ -53,6 +53,9 @@ TEST(VectorClones, UseRegistersAsWideAsTheyMay) {
 }
 
 // Their sizes decide in which order Eigen sums a product.
+#ifndef EIGEN_NO_CPUID
+#error "Eigen would choose its blocks by the processor's caches"
+#endif
 TEST(VectorClones, GoWithEigenBlockSizesThatDoNotDependOnTheProcessor) {
   EXPECT_EQ(Eigen::l1CacheSize(), Eigen::internal::defaultL1CacheSize);
   EXPECT_EQ(Eigen::l2CacheSize(), Eigen::internal::defaultL2CacheSize);

@@ -6,8 +6,7 @@
 namespace boresight::design {
 namespace {
 
-// Twice the wind has four times of both, and an oil spring
-// that leaks half as fast needs half the flow.
+// Twice the wind has four times of both; half the leakage needs half the flow.
 TEST(MeanWindLoad, GrowsWithTheSquareOfTheWindAndItsFlowWithTheLeakage) {
   TrackingProblem problem = reference::tracking_problem();
   const MeanWindLoad load = mean_wind_load(problem);

@@ -154,7 +154,7 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
       "{} stages lead to {}. {} more than a factor of {:.3g} per stage; Ms is at most {:.2f} on "
       "each of {} plants at every stage.",
       report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
-      state_space ? "The first replaces all gains at reduced output; the output rises by no"
+      state_space ? "The first replaces all gains at reduced output; its factor k rises by no"
                   : "No gain changes by",
       report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));
   if (first.kind == StageKind::as_found && std::isfinite(first.expected.boresight_rms.upper)) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/controller.hpp>
+#include <boresight/control/controllers/path_sections.hpp>
 #include <boresight/control/controllers/sensor_response.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
@@ -34,64 +35,25 @@ std::vector<PlacedBlock> blocks_of(const Controller& controller, LoopPath path) 
   return placed;
 }
 
-// Numerator and denominator, lowest power first.
-struct Polynomials {
-  std::vector<double> numerator, denominator;
-};
-
-Polynomials polynomials(const PlacedBlock& placed) {
-  const double* g = placed.gains;
-  switch (placed.block->kind) {
-    case BlockKind::gain:
-      return {{g[0]}, {1.0}};
-    case BlockKind::integral:
-      return {{g[0], 1.0}, {0.0, 1.0}};
-    case BlockKind::lag:
-      return {{1.0}, {1.0, 1.0 / g[0]}};
-    case BlockKind::lead:
-      return {{1.0, 1.0 / g[0]}, {1.0}};
-    case BlockKind::washout:
-      return {{0.0, 1.0}, {g[0], 1.0}};
-    case BlockKind::notch:
-      return {{g[0] * g[0], 2.0 * g[1] * g[0], 1.0}, {g[0] * g[0], 2.0 * g[2] * g[0], 1.0}};
-  }
-  throw InvalidInput("controller: not a kind of block");
-}
-
-// One path as a chain of first- and second-order sections from `input` to `output`: the gain in the
-// first section, each lead on a lag of its own.
+// One path as a chain of first- and second-order sections from `input` to `output`.
 std::vector<plant::StateSpace> chain(const Controller& controller, LoopPath path,
                                      const std::string& input, const std::string& output) {
-  std::vector<PlacedBlock> leads, rest;
-  double gain = 1.0;
-  for (const PlacedBlock& placed : blocks_of(controller, path)) {
-    if (placed.block->kind == BlockKind::gain) {
-      gain = placed.gains[0];
-    } else {
-      (placed.block->kind == BlockKind::lead ? leads : rest).push_back(placed);
-    }
-  }
+  const auto factors = path_sections(controller, path);
   const std::string name(to_string(path));
   std::vector<plant::StateSpace> sections;
   std::string signal = input;
-  for (std::size_t i = 0; i < rest.size(); ++i) {
-    Polynomials section = polynomials(rest[i]);
-    if (rest[i].block->kind == BlockKind::lag && !leads.empty()) {
-      section.numerator = polynomials(leads.back()).numerator;
-      leads.pop_back();
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const PathSection& factor = factors[i];
+    const std::string next =
+        i + 1 == factors.size() ? output : fmt::format("{}_path_{}", name, i + 1);
+    if (factor.denominator.size() == 1) {
+      sections.push_back(plant::static_gain(
+          Eigen::MatrixXd::Constant(1, 1, factor.numerator.front()), {signal}, {next}));
+    } else {
+      sections.push_back(plant::rational(factor.numerator, factor.denominator, signal, next,
+                                         fmt::format("{}_{}", name, factor.symbol)));
     }
-    if (i == 0) {
-      for (double& coefficient : section.numerator) coefficient *= gain;
-    }
-    const std::string next = i + 1 == rest.size() ? output : fmt::format("{}_path_{}", name, i + 1);
-    sections.push_back(
-        plant::rational(section.numerator, section.denominator, signal, next,
-                        fmt::format("{}_{}", name, rest[i].block->gains.front().symbol)));
     signal = next;
-  }
-  if (rest.empty()) {
-    sections.push_back(
-        plant::static_gain(Eigen::MatrixXd::Constant(1, 1, gain), {input}, {output}));
   }
   return sections;
 }

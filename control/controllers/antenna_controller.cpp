@@ -196,8 +196,9 @@ double AntennaController::valve_feedforward(double rate, double acceleration, do
 }
 
 double AntennaController::friction_torque(double rate) const {
-  constexpr double rest = 1e-9;  // rad/s
-  return std::abs(rate) < rest ? 0.0 : plant::friction_torque(options_.feedforward.friction, rate);
+  return std::abs(rate) < friction_rest_rate
+             ? 0.0
+             : plant::friction_torque(options_.feedforward.friction, rate);
 }
 
 void AntennaController::restart() {

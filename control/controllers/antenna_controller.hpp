@@ -16,6 +16,9 @@ namespace boresight::control {
 /// Largest load, as a fraction of the supply torque, for which Feedforward opens the valve further.
 inline constexpr double max_feedforward_load = 0.9;
 
+/// Commanded rates (rad/s) below this count as rest.
+inline constexpr double friction_rest_rate = 1e-9;
+
 /// Feedforward gains from the commanded motion to rate command, valve command and expected motor
 /// torque, in addition to the feedback of errors. All zero: no feedforward.
 struct Feedforward {
@@ -75,6 +78,17 @@ struct SteadyMotion {
   double motor_torque = 0.0;   // N m
 };
 
+/// A controller of the antenna's motion that takes over from a steady motion. Inputs and output as
+/// AntennaController.
+class StartedController : public plant::SampledController {
+ public:
+  /// Sets the state after restart() to the steady state of the controller in this motion, with the
+  /// tachometer's rate as reference rate. Returns the encoder's lead over the reference (rad) in
+  /// that state.
+  /// @throws NumericalFailure for a controller without a steady state in constant motion.
+  virtual double start_from(const SteadyMotion& motion) = 0;
+};
+
 struct AntennaControllerOptions {
   Feedforward feedforward = {};
   /// Largest magnitude of the valve command (rad/s).
@@ -92,8 +106,8 @@ struct AntennaControllerOptions {
 ///
 /// The friction torque fed forward is that of the commanded rate at the next sample, when the valve
 /// command acts after a computation time of one sample. Measured torque shows it one sample later,
-/// and so is corrected by the friction torque of two samples before. Commanded rates below 1e-9
-/// rad/s count as rest.
+/// and so is corrected by the friction torque of two samples before. Commanded rates below
+/// friction_rest_rate count as rest.
 ///
 /// Anti-windup by back calculation (K. J. Astrom, T. Hagglund, PID Controllers, 1995, ch. 3.5) acts
 /// on the angle. The command's excess over the limit is divided by the product of the proportional
@@ -106,7 +120,7 @@ struct AntennaControllerOptions {
 /// A state-space controller regulates the measurements about the commanded motion: encoder less
 /// reference, tachometer less the rate command's feedforward, torque less that of the motion. It
 /// must be stable by itself, as it has no anti-windup.
-class AntennaController final : public plant::SampledController {
+class AntennaController final : public StartedController {
  public:
   /// @throws InvalidInput as sampled_controller, for a command limit or a supply torque that is not
   /// above 0, and feedforward that is not finite; for a state-space controller that is not stable
@@ -121,12 +135,9 @@ class AntennaController final : public plant::SampledController {
   void update(double time, const Eigen::Ref<const Eigen::VectorXd>& measured,
               Eigen::Ref<Eigen::VectorXd> commands) override;
 
-  /// Sets the state after restart() to the steady state of the controller in this motion, with the
-  /// tachometer's rate as reference rate. Returns the encoder's lead over the reference (rad) in
-  /// that state. It is 0 for a controller that integrates the angle, except for the contribution of
+  /// The lead is 0 for a controller that integrates the angle, except for the contribution of
   /// compliance compensation.
-  /// @throws NumericalFailure for a controller without a steady state in constant motion.
-  double start_from(const SteadyMotion& motion);
+  double start_from(const SteadyMotion& motion) override;
 
   /// The fraction of back calculation in use: 1, 1/2, ...; 0 without anti-windup or integrators.
   double back_calculation_fraction() const { return back_calculation_fraction_; }

@@ -293,7 +293,9 @@ LoopRun run_loop(const SimulatedLoop& loop, const ReferenceTrajectory& course,
   controller_options.anti_windup = loop.anti_windup;
   if (limited) controller_options.command_limit = loop.antenna.valve.stroke_limit;
   controller_options.feedforward = feedforward_of(loop, options.without);
-  control::AntennaController controller(loop.controller, loop.sample_time, controller_options);
+  control::AntennaController own(loop.controller, loop.sample_time, controller_options);
+  control::StartedController& controller =
+      options.controller != nullptr ? *options.controller : own;
   plant::FeedbackSystem system = plant::to_feedback_system(antenna);
   LoopRun run;
   plant::SimulationPlan plan;

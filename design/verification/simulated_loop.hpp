@@ -101,6 +101,8 @@ struct LoopRunOptions {
   /// As in SimulationPlan: relative rms error of 1e-5 on the reference antenna.
   double relative_tolerance = 1e-5;
   double absolute_tolerance = 1e-7;
+  /// Runs instead of the loop's AntennaController; must outlive the run.
+  control::StartedController* controller = nullptr;
   /// As SimulationPlan::progress.
   std::function<bool(Eigen::Index done, Eigen::Index all)> progress = nullptr;
 };

@@ -1,0 +1,171 @@
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/control/program/feedback_statements.hpp>
+
+namespace boresight::control::program {
+namespace {
+
+// A section in transposed direct form II: y = b0 u + s1, s1' = b1 u - a1 y + s2, s2' = b2 u - a2 y.
+class Section {
+ public:
+  Section(Builder& builder, const DigitalSection& section, bool forward)
+      : order_(section.order),
+        forward_(forward),
+        static_gain_(forward
+                         ? builder.parameter(section.name + "_static_gain", Type::real,
+                                             section.static_gain, "",
+                                             section.description + ": output over input at rest")
+                         : builder.parameter(section.name + "_inverse_static_gain", Type::real,
+                                             section.inverse_static_gain, "",
+                                             section.description + ": input over output at rest")),
+        input_(builder.local(section.name + "_input", Type::real, "", "")),
+        output_(builder.local(section.name + "_output", Type::real, "", "")) {
+    constexpr const char* digits[]{"0", "1", "2"};
+    for (std::size_t i = 0; std::cmp_less_equal(i, order_); ++i) {
+      b_.push_back(builder.parameter(fmt::format("{}_b{}", section.name, digits[i]), Type::real,
+                                     section.b[i], "", section.description));
+    }
+    for (std::size_t i = 0; std::cmp_less(i, order_); ++i) {
+      a_.push_back(builder.parameter(fmt::format("{}_a{}", section.name, digits[i + 1]), Type::real,
+                                     section.a[i], "", section.description));
+      states_.push_back(builder.state(fmt::format("{}_state{}", section.name, digits[i + 1]),
+                                      Type::real, "", section.description));
+    }
+  }
+
+  Expression compute(Builder& builder, const Expression& input) const {
+    builder.assign(input_, input);
+    builder.assign(output_, order_ == 0 ? b_[0] * input_ : b_[0] * input_ + states_[0]);
+    return output_;
+  }
+
+  Expression advance(Builder& builder, const Expression& input) const {
+    compute(builder, input);
+    if (order_ == 1) builder.assign(states_[0], b_[1] * input_ - a_[0] * output_);
+    if (order_ == 2) {
+      builder.assign(states_[0], b_[1] * input_ - a_[0] * output_ + states_[1]);
+      builder.assign(states_[1], b_[2] * input_ - a_[1] * output_);
+    }
+    return output_;
+  }
+
+  // At rest: the output of an input (forward), or the input of an output.
+  Expression start(Builder& builder, const Expression& known) const {
+    builder.assign(forward_ ? input_ : output_, known);
+    builder.assign(forward_ ? output_ : input_, (forward_ ? input_ : output_) * static_gain_);
+    if (order_ > 0) builder.assign(states_[0], output_ - b_[0] * input_);
+    if (order_ == 2) builder.assign(states_[1], b_[2] * input_ - a_[1] * output_);
+    return forward_ ? output_ : input_;
+  }
+
+ private:
+  int order_;
+  bool forward_;
+  Expression static_gain_, input_, output_;
+  std::vector<Expression> b_, a_, states_;
+};
+
+class Path {
+ public:
+  Path(Builder& builder, const Controller& controller, LoopPath path, double sample_time,
+       bool forward) {
+    for (const auto& section : digital_sections(controller, path, sample_time)) {
+      sections_.emplace_back(builder, section, forward);
+    }
+  }
+
+  Expression compute(Builder& builder, Expression signal) const {
+    for (const auto& section : sections_) signal = section.compute(builder, signal);
+    return signal;
+  }
+  Expression advance(Builder& builder, Expression signal) const {
+    for (const auto& section : sections_) signal = section.advance(builder, signal);
+    return signal;
+  }
+  Expression start_forward(Builder& builder, Expression input) const {
+    for (const auto& section : sections_) input = section.start(builder, input);
+    return input;
+  }
+  Expression start_backward(Builder& builder, Expression output) const {
+    for (auto section = sections_.rbegin(); section != sections_.rend(); ++section) {
+      output = section->start(builder, output);
+    }
+    return output;
+  }
+
+ private:
+  std::vector<Section> sections_;
+};
+
+class LoopFeedback final : public FeedbackStatements {
+ public:
+  LoopFeedback(Builder& builder, const Controller& controller, double sample_time,
+               double back_calculation)
+      : rate_(builder, controller, LoopPath::rate, sample_time, false),
+        position_(builder, controller, LoopPath::position, sample_time, false),
+        conditioned_(back_calculation > 0.0) {
+    const auto path = [&](LoopPath which) {
+      return controller.structure.has(which)
+                 ? std::optional<Path>(std::in_place, builder, controller, which, sample_time, true)
+                 : std::nullopt;
+    };
+    pressure_ = path(LoopPath::pressure);
+    compliance_ = path(LoopPath::compliance);
+    if (!conditioned_) return;
+    double gain = 1.0;
+    std::size_t first = 0;
+    for (const LoopBlock& block : controller.structure.blocks()) {
+      const bool counts = block.path == LoopPath::rate || block.path == LoopPath::position;
+      if (counts && block.kind == BlockKind::gain) gain *= controller.gains[first];
+      first += block.gains.size();
+    }
+    anti_windup_ = builder.parameter("anti_windup", Type::real, back_calculation / gain, "s",
+                                     "angle error per valve command beyond its limit");
+  }
+
+  Expression start(Builder& builder, const Expression& feedback,
+                   const FeedbackInputs& inputs) override {
+    if (pressure_) pressure_->start_forward(builder, inputs.torque);
+    const Expression rate_error = rate_.start_backward(builder, feedback);
+    const Expression angle =
+        position_.start_backward(builder, inputs.rate_feedforward - inputs.rate - rate_error);
+    return compliance_ ? angle + compliance_->start_forward(builder, inputs.torque) : angle;
+  }
+
+  Expression feedback(Builder& builder, const FeedbackInputs& inputs) override {
+    const Expression corrected =
+        compliance_ ? inputs.angle_error - compliance_->compute(builder, inputs.torque)
+                    : inputs.angle_error;
+    const Expression position = position_.compute(builder, corrected);
+    const Expression rate =
+        rate_.compute(builder, inputs.rate_feedforward - position - inputs.rate);
+    return pressure_ ? rate - pressure_->compute(builder, inputs.torque) : rate;
+  }
+
+  void advance(Builder& builder, const FeedbackInputs& inputs, const Expression& cut) override {
+    Expression corrected =
+        conditioned_ ? inputs.angle_error + anti_windup_ * cut : inputs.angle_error;
+    if (compliance_) corrected = corrected - compliance_->advance(builder, inputs.torque);
+    const Expression position = position_.advance(builder, corrected);
+    rate_.advance(builder, inputs.rate_feedforward - position - inputs.rate);
+    if (pressure_) pressure_->advance(builder, inputs.torque);
+  }
+
+ private:
+  Path rate_, position_;
+  std::optional<Path> pressure_, compliance_;
+  bool conditioned_;
+  Expression anti_windup_;
+};
+
+}  // namespace
+
+std::unique_ptr<FeedbackStatements> loop_feedback(Builder& builder, const Controller& controller,
+                                                  double sample_time, double back_calculation) {
+  return std::make_unique<LoopFeedback>(builder, controller, sample_time, back_calculation);
+}
+
+}  // namespace boresight::control::program

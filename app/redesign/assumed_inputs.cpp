@@ -48,7 +48,7 @@ bool rests_on(const io::Case& antenna, std::string_view key, const NonlinearInpu
   if (key.starts_with(recorder)) {
     return rests_on_recorder(antenna, key.substr(recorder.size()), uses);
   }
-  return true;
+  return uses.computer || !key.starts_with("computer."sv);
 }
 
 }  // namespace

@@ -22,11 +22,13 @@ struct NonlinearInputs {
   bool rate_loop = false;
   /// recorder.*, how tests are written down.
   bool recorder = false;
+  /// computer.*, the signals of the antenna's control computer.
+  bool computer = false;
 };
 
 /// Quantities of basis `assumed`, and those whose uncertainty is, in the case's order. Of
-/// [simulation] and [recorder] those that `nonlinear` takes in, and those that stand in for
-/// [instruments] and drive.return_pressure where a case has records and lacks them.
+/// [simulation], [recorder] and [computer] those that `nonlinear` takes in, and those that stand in
+/// for [instruments] and drive.return_pressure where a case has records and lacks them.
 std::vector<io::Quantity> assumed_inputs(const io::Case& antenna,
                                          const NonlinearInputs& nonlinear = {});
 

@@ -33,6 +33,8 @@ struct RecorderEntry;
 // case_sensors.hpp
 struct SensorsEntry;
 struct ControllerEntry;
+// case_computer.hpp
+struct ComputerEntry;
 // case_wind.hpp
 struct WindEntry;
 // case_pointing.hpp

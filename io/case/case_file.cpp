@@ -2,6 +2,7 @@
 #include <set>
 
 #include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/case/case_computer.hpp>
 #include <boresight/io/case/case_drive.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_friction.hpp>
@@ -68,6 +69,7 @@ Case case_of(TableReader file, const std::string& path) {
   read_structure(file, antenna);
   read_simulation(file, antenna);
   read_sensors(file, antenna);
+  read_computer(file, antenna);
   read_wind(file, antenna);
   read_pointing(file, antenna);
   read_goals(file, antenna);

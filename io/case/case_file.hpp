@@ -39,6 +39,7 @@ struct Case {
   OptionalSection<RecorderEntry> recorder;
   Section<SensorsEntry> sensors;
   Section<ControllerEntry> controller;
+  OptionalSection<ComputerEntry> computer;
   Section<WindEntry> wind;
   std::vector<BandEntry> bands;
   std::vector<BudgetEntry> budgets;

@@ -29,6 +29,8 @@ void read_structure(TableReader& file, Case& antenna);
 /// Records, their columns and instruments.
 void read_campaign(TableReader& file, Case& antenna);
 void read_sensors(TableReader& file, Case& antenna);
+/// Signals of the antenna's control computer.
+void read_computer(TableReader& file, Case& antenna);
 void read_wind(TableReader& file, Case& antenna);
 /// A mean wind speed as the case states it, at the height of the dish's centre.
 Quantity at_dish_centre(const WindEntry& wind, const Quantity& stated);

@@ -29,8 +29,8 @@ plant::TachometerRecording tachometer_of(const Case& stated, const RecorderEntry
   if (!tachometer) {
     refuse_missing(stated, "tachometer", "the scale the recorder writes motor rates in");
   }
-  const auto& [shaft, motor_teeth, tachometer_teeth, voltage, shaft_speed, limit] = *tachometer;
-  if (!voltage || !shaft_speed) {
+  const auto& limit = tachometer->recorder_limit;
+  if (!motor_rate_per_volt(stated)) {
     throw InvalidInput(
         fmt::format("{}: expected tachometer.voltage and tachometer.shaft_speed, for a simulated "
                     "recorder writes volts, found neither{}",
@@ -41,11 +41,7 @@ plant::TachometerRecording tachometer_of(const Case& stated, const RecorderEntry
         "{}: expected tachometer.recorder_limit, which the tests' amplitudes go by, found none{}",
         stated.path, recorded_only));
   }
-  double turns = 1.0;  // of the motor, one of the shaft
-  if (motor_teeth && tachometer_teeth) turns = motor_teeth->value / tachometer_teeth->value;
-  if (shaft == "antenna") turns = gear_ratio(stated);
-  // Eq. 32 of Sommerville.
-  return {shaft_speed->value * turns / voltage->value, limit->value, recorder.tachometer_gain.value,
+  return {*motor_rate_per_volt(stated), limit->value, recorder.tachometer_gain.value,
           recorder.tachometer_noise.value, recorder.tachometer_resolution.value};
 }
 
@@ -55,6 +51,19 @@ void require_simulation(const Case& stated) {
   if (!stated.simulation) {
     refuse_missing(stated, "simulation", "what the linear plant leaves out of the drive");
   }
+}
+
+std::optional<double> motor_rate_per_volt(const Case& stated) {
+  if (!stated.campaign->tachometer) return std::nullopt;
+  const RecordedTachometerEntry& entry = *stated.campaign->tachometer;
+  if (!entry.voltage || !entry.shaft_speed) return std::nullopt;
+  double turns = 1.0;  // of the motor, one of the shaft
+  if (entry.motor_teeth && entry.tachometer_teeth) {
+    turns = entry.motor_teeth->value / entry.tachometer_teeth->value;
+  }
+  if (entry.shaft == "antenna") turns = gear_ratio(stated);
+  // Eq. 32 of Sommerville.
+  return entry.shaft_speed->value * turns / entry.voltage->value;
 }
 
 plant::NonlinearAntenna make_nonlinear_antenna(const Case& stated) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include <boresight/design/simulation/drive_tests.hpp>
 #include <boresight/io/case/case_declaration.hpp>
 
@@ -12,6 +14,10 @@ void require_simulation(const Case& stated);
 /// The nonlinear antenna of antenna_of(stated).
 /// @throws InvalidInput as require_simulation, antenna_of and plant::nonlinear_antenna.
 plant::NonlinearAntenna make_nonlinear_antenna(const Case& stated);
+
+/// Rate of the motors per volt of the tachometer (rad/s per V), on whichever shaft it is
+/// (Sommerville, eq. 32); none unless the case states its voltage at a speed.
+std::optional<double> motor_rate_per_volt(const Case& stated);
 
 /// The recorder of the case's tests, the tachometer on a shaft of its own, the motor's or the
 /// antenna's.

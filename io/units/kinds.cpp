@@ -58,6 +58,7 @@ constexpr std::array kinds{
     KindEntry{Kind::voltage,
               {.length = 2, .mass = 1, .time = -3, .current = -1},
               {"voltage", "V", "V, mV"}},
+    KindEntry{Kind::current, {.current = 1}, {"current", "A", "A, mA"}},
     KindEntry{Kind::tachometer_scale,
               {.length = -2, .mass = -1, .time = 2, .angle = 1, .current = 1},
               {"tachometer scale", "rad/(s.V)", "rpm/V, deg/(s.V)"}},

@@ -76,6 +76,7 @@ enum class Kind {
   viscous_friction,      // N m s/rad: "5.21 N.m/rpm"
   compliance,            // rad/(N m)
   voltage,               // V
+  current,               // A
   tachometer_scale,      // rad/(s V): "600/157 rpm/V" is written as its value, e.g. "3.82166 rpm/V"
   rate_per_current,      // rad/(s A): a valve driven by a current
   rate_per_torque,       // rad/(s N m): torque or pressure fed back to a valve

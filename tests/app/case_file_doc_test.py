@@ -20,6 +20,8 @@ for mark in ("[[structure.prediction]]", "[instruments]", "[record_columns]", "[
     if mark + "\n" not in CASE:
         begin = RECORDED.index(mark + "\n")
         CASE += "\n" + RECORDED[begin:RECORDED.find("\n[", begin) + 1]
+# Nor has it the signals of the antenna's control computer.
+CASE += "\n[computer]\nvalve_voltage = '10 V'\nencoder_counts = 1048576\n"
 # Nor has it those that only tuning reads.
 CASE += (SOURCE / "tests/data/tuning/tables.toml").read_text(encoding="utf-8")
 CASE += "\n[[remark]]\nplace = 'here'\ntext = 'the last table'\n"

@@ -1,4 +1,5 @@
 // Which assumed inputs a report lists: those that its numbers rest on, and no others.
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -132,6 +133,20 @@ TEST(AssumedInputs, OfSimulatedTestsFollowTheTests) {
   EXPECT_THAT(ramp, IsSupersetOf(slosh));
   EXPECT_THAT(ramp, Contains("simulation.rate_loop_gain"));
   EXPECT_THAT(ramp, IsSupersetOf(loops));
+}
+
+TEST(AssumedInputs, NameSignalsOfTheComputerOnlyWhereTheyAreUsed) {
+  const ScratchFolder folder;
+  EditedCase text;
+  text.replace("[controller]\n",
+               "[computer]\nvalve_voltage = { value = \"10 V\", basis = \"assumed\" }\n"
+               "[controller]\n");
+  const auto antenna = edited(folder, text);
+  const auto names_it = [](const std::vector<io::Quantity>& assumed) {
+    return std::ranges::count(assumed, "computer.valve_voltage", &io::Quantity::key);
+  };
+  EXPECT_EQ(names_it(assumed_inputs(antenna)), 0);
+  EXPECT_EQ(names_it(assumed_inputs(antenna, {.computer = true})), 1);
 }
 
 TEST(AssumedInputs, OfRecordsNameWhatStandsInForInstruments) {

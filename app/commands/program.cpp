@@ -8,6 +8,7 @@
 #include <boresight/app/commands/command_examples.hpp>
 #include <boresight/app/commands/commission_command.hpp>
 #include <boresight/app/commands/evaluate_command.hpp>
+#include <boresight/app/commands/export_command.hpp>
 #include <boresight/app/commands/help_text.hpp>
 #include <boresight/app/commands/manual_commands.hpp>
 #include <boresight/app/commands/match_command.hpp>
@@ -128,6 +129,7 @@ Program make_program() {
   program.commands.push_back(add_montecarlo(options));
   program.commands.push_back(add_evaluate(options));
   program.commands.push_back(add_commission(options));
+  program.commands.push_back(add_export(options));
   for (const auto& command : program.commands) add_quiet(*command.options);
   program.commands.push_back(add_completion(options));
   program.commands.push_back(add_manual(options));

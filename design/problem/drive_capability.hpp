@@ -1,9 +1,13 @@
 #pragma once
 
 #include <boresight/control/controllers/command_preprocessor.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/plant/nonlinear/nonlinear_antenna.hpp>
 
 namespace boresight::design {
+
+/// Acceleration (rad/s2 at the sky) of a commanded slew, where the drive achieves it.
+inline constexpr double slew_acceleration = 0.2 * degree;
 
 /// The highest rate up to `wanted` (rad/s of motor) that the supply sustains against friction and
 /// offset in both directions, to 1e-6 of `wanted`; 0 if none.

@@ -22,7 +22,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr Index intervals_per_sample = 4;
-constexpr double largest_acceleration = 0.2 * degree;  // rad/s2, of a command
 
 // The antenna that runs, and what its controller was designed on.
 struct SimulatedAxis {
@@ -192,7 +191,7 @@ PositionTestRecord run_slew(const Mission& mission, const control::Controller& c
   const double wanted = mission.antenna.drive.slew_rate;
   const double attainable = attainable_rate(axis.antenna, wanted * gear) / gear;
   const auto limits = achievable_limits(axis.antenna, plant::reflected_inertia(axis.problem.plant),
-                                        {wanted * gear, largest_acceleration * gear});
+                                        {wanted * gear, slew_acceleration * gear});
   constexpr double longest = 3600.0;  // s
   if (!(limits.rate > 0.0) || !(limits.acceleration > 0.0) ||
       control::min_move_time(limits, distance * gear) >= longest) {

@@ -18,7 +18,6 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 std::optional<SlewFigures> slew_of(const plant::Antenna& antenna) {
   if (!antenna.nonlinear) return std::nullopt;
   constexpr double distance = 10.0 * degree;
-  constexpr double acceleration = 0.2 * degree;
   const double ratio = plant::gear_ratio(antenna);
   SlewFigures slew;
   slew.distance = distance;
@@ -32,7 +31,8 @@ std::optional<SlewFigures> slew_of(const plant::Antenna& antenna) {
       achievable_limits(plant::nonlinear_antenna(antenna), inertia, {wanted, any_acceleration});
   slew.reachable_acceleration = std::max(0.0, reach.acceleration / ratio);
   slew.rate = std::max(0.0, reach.rate / ratio);
-  slew.acceleration = std::max(0.0, std::min(acceleration * ratio, reach.acceleration) / ratio);
+  slew.acceleration =
+      std::max(0.0, std::min(slew_acceleration * ratio, reach.acceleration) / ratio);
   if (slew.rate > 0.0 && slew.acceleration > 0.0) {
     const double ramps = slew.rate * slew.rate / slew.acceleration;
     slew.time = ramps >= distance ? 2.0 * std::sqrt(distance / slew.acceleration)

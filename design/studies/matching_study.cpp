@@ -210,7 +210,7 @@ MatchTimeDomain run_in_time(const Mission& mission, const PlantEnsemble& ensembl
   options.explain = false;
   options.limit_cycle_duration = 120.0;
   options.tracking_rate = antenna.drive.tracking_rate;
-  options.limits = {antenna.drive.slew_rate, 0.2 * degree};
+  options.limits = {antenna.drive.slew_rate, slew_acceleration};
   options.winds = winds;
   auto result = verify_in_time(problem, loop, options);
   MatchTimeDomain run{std::move(result.limit_cycles), std::move(result.reversal)};

@@ -26,7 +26,7 @@ TimeDomainStudy plan(const Mission& mission, const TrackingProblem& problem,
   options.seeds = {seed};
   options.tracking_rate = mission.antenna.drive.tracking_rate;
   options.slew_distance = 1.0 * degree;
-  options.limits = {mission.antenna.drive.slew_rate, 0.2 * degree};
+  options.limits = {mission.antenna.drive.slew_rate, slew_acceleration};
   options.allowed_limit_cycle = allowed_limit_cycle(mission);
   options.settled_error = tightest_budget(mission);
   options.threads = threads;

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/io/code/c_code.hpp>
+#include <boresight/io/code/exported_files.hpp>
+#include <boresight/io/code/octave_code.hpp>
+#include <boresight/io/code/program_json.hpp>
+#include <boresight/io/code/simulink_model.hpp>
+#include <boresight/io/code/structured_text.hpp>
+#include <boresight/io/code/test_vector_files.hpp>
+#include <boresight/io/exchange/controller_file.hpp>
+#include <boresight/numerics/error.hpp>
+
+namespace boresight::io {
+namespace {
+
+using control::program::Program;
+
+std::string gain_text(const GainRow& row) {
+  return row.unit == "1" || row.unit.empty() ? fmt::format("{:.17g}", row.value)
+                                             : fmt::format("{:.17g} {}", row.value, row.unit);
+}
+
+// With the gains and their source in its notes.
+Program described_program(const design::ExportedController& exported,
+                          const ExportOptions& options) {
+  Program program = exported.program;
+  program.notes.push_back(fmt::format("Controller: {}.", options.source));
+  std::string gains;
+  for (const auto& row : gain_rows(exported.controller)) {
+    gains += fmt::format("{}{} = {:.9g}{}{}", gains.empty() ? "" : ", ", row.symbol, row.value,
+                         row.unit == "1" ? "" : " ", row.unit == "1" ? "" : row.unit);
+  }
+  if (!gains.empty()) program.notes.push_back("Gains at the motor shaft: " + gains + ".");
+  return program;
+}
+
+CodeFile controller_to_read(const design::ExportedController& exported,
+                            const ExportOptions& options) {
+  const control::Controller& controller = exported.controller;
+  if (const plant::StateSpace* system = controller.structure.state_space()) {
+    return {"state_space.json", controller_json(*system)};
+  }
+  std::string text = fmt::format("[gains]\nstructure = \"{}\"\n", options.structure);
+  const auto& descriptions = controller.structure.gains();
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    const auto& [name, symbol, unit, lower, upper] = descriptions[i];
+    text +=
+        fmt::format("{} = \"{}\"\n", symbol, gain_text({symbol, name, controller.gains[i], unit}));
+  }
+  return {"gains.toml", std::move(text)};
+}
+
+void append(std::vector<CodeFile>& files, std::vector<CodeFile> more) {
+  std::ranges::move(more, std::back_inserter(files));
+}
+
+// Product of the gain blocks of a path.
+double path_gain(const control::Controller& controller, control::LoopPath path) {
+  std::size_t first = 0;
+  for (const auto& block : controller.structure.blocks()) {
+    if (block.path == path && block.kind == control::BlockKind::gain) {
+      return controller.gains[first];
+    }
+    first += block.gains.size();
+  }
+  return 1.0;
+}
+
+}  // namespace
+
+std::string_view to_string(CodeLanguage language) {
+  switch (language) {
+    case CodeLanguage::c:
+      return "c";
+    case CodeLanguage::structured_text:
+      return "st";
+    case CodeLanguage::simulink:
+      return "simulink";
+    case CodeLanguage::json:
+      return "json";
+  }
+  throw InvalidInput("code language: not one of those there are");
+}
+
+const std::vector<CodeLanguage>& code_languages() {
+  static const std::vector<CodeLanguage> all{CodeLanguage::c, CodeLanguage::structured_text,
+                                             CodeLanguage::simulink, CodeLanguage::json};
+  return all;
+}
+
+std::vector<GainRow> gain_rows(const control::Controller& controller) {
+  std::vector<GainRow> rows, integrals;
+  std::size_t first = 0;
+  for (const auto& block : controller.structure.blocks()) {
+    for (std::size_t i = 0; i < block.gains.size(); ++i) {
+      const auto& gain = block.gains[i];
+      rows.push_back({gain.symbol, gain.name, controller.gains[first + i], gain.unit});
+    }
+    if (block.kind == control::BlockKind::integral) {
+      const bool rate = block.path == control::LoopPath::rate;
+      integrals.push_back({rate ? "Kir" : "Kip",
+                           fmt::format("{} integral gain, proportional gain times {}",
+                                       to_string(block.path), block.gains.front().symbol),
+                           path_gain(controller, block.path) * controller.gains[first],
+                           rate ? "1/s" : "1/s2"});
+    }
+    first += block.gains.size();
+  }
+  std::ranges::move(integrals, std::back_inserter(rows));
+  return rows;
+}
+
+std::vector<CodeFile> exported_files(const design::ExportedController& exported,
+                                     const CaseSignals& signals, const ExportOptions& options) {
+  const Program program = described_program(exported, options);
+  std::vector<CodeFile> files;
+  bool tested = false;
+  for (const CodeLanguage language : options.languages) {
+    switch (language) {
+      case CodeLanguage::c:
+        append(files, c_code(program, options.precision));
+        files.push_back(c_test_program(program));
+        break;
+      case CodeLanguage::structured_text:
+        files.push_back(structured_text(program, options.precision));
+        break;
+      case CodeLanguage::simulink:
+        append(files, octave_code(program));
+        files.push_back(simulink_model(exported));
+        break;
+      case CodeLanguage::json:
+        files.push_back(program_json(program, exported, signals));
+        break;
+    }
+    tested = tested || language != CodeLanguage::json;
+  }
+  if (tested) {
+    auto vectors = test_vector_files(program, exported.vectors);
+    for (auto& file : vectors) file.name = "vectors/" + file.name;
+    append(files, std::move(vectors));
+  }
+  files.push_back(controller_to_read(exported, options));
+  return files;
+}
+
+}  // namespace boresight::io

@@ -10,6 +10,7 @@
 #include <boresight/app/commands/export_command.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
+#include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -71,7 +72,8 @@ ExportReport export_case(const ExportArguments& arguments,
   const io::DesignedAntenna designed =
       designed_antenna(stated, arguments.seed, arguments.threads, interrupted);
   const ChosenController chosen = controller_of(designed, stated, arguments, interrupted);
-  const io::CaseSignals signals = io::computer_signals(designed.antenna, designed.mission);
+  const io::CaseSignals signals = io::computer_signals(
+      designed.antenna, designed.mission, chosen.controller.structure.feeds_torque_back());
   ExportReport report;
   report.exported =
       design::exported_controller(designed.mission, chosen.controller, signals.signals);
@@ -81,12 +83,16 @@ ExportReport export_case(const ExportArguments& arguments,
   report.structure = chosen.structure;
   report.source = chosen.source;
   report.folder = arguments.folder;
-  report.single_precision = arguments.precision == "single";
+  report.prefix = arguments.prefix;
   report.signals = signals.descriptions;
   io::ExportOptions options;
   options.languages = languages_of(arguments.languages);
-  options.precision = report.single_precision ? control::program::Precision::single_precision
-                                              : control::program::Precision::double_precision;
+  options.precision = arguments.precision == "single"
+                          ? control::program::Precision::single_precision
+                          : control::program::Precision::double_precision;
+  options.prefix = arguments.prefix;
+  options.antenna = fmt::format("Antenna: {}, {}; case {}; by Boresight {}", stated.title,
+                                words_of(report.axis), arguments.case_path, BORESIGHT_VERSION);
   options.structure = chosen.structure;
   options.source = chosen.source;
   const auto files = io::exported_files(report.exported, signals, options);
@@ -142,6 +148,9 @@ Subcommand add_export(CLI::App& program) {
   sub->add_option("--precision", arguments->precision,
                   "of C and Structured Text: double or single; angles are always double")
       ->check(CLI::IsMember({"double", "single"}))
+      ->capture_default_str();
+  sub->add_option("--prefix", arguments->prefix,
+                  "begins the names of files, types and functions: one per axis of a computer")
       ->capture_default_str();
   add_controller(*sub, "the controller", arguments->controller);
   sub->add_flag("--details", arguments->details,

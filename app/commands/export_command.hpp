@@ -16,6 +16,7 @@ struct ExportArguments {
   std::vector<std::string> languages;  // as io::to_string(CodeLanguage); empty: all
   std::string folder = "servo-controller";
   std::string precision = "double";  // or "single"
+  std::string prefix = "servo";      // io::ExportOptions
   ControllerOptions controller;
   std::uint64_t seed = 1;
   unsigned threads = 1;

@@ -20,7 +20,7 @@ struct ExportReport {
   std::string source;     // of the controller
   std::string folder;
   std::vector<std::string> files;  // within the folder
-  bool single_precision = false;
+  std::string prefix;
   bool with_vectors = false, with_c = false;
   std::vector<io::SignalDescription> signals;
   design::ExportedController exported;

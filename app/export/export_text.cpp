@@ -37,9 +37,12 @@ std::vector<std::string> decision(const ExportReport& report) {
                     fmt::join(defaults, ", ")));
   }
   if (!exported.achievable_limits) {
-    sentences.push_back(
-        "The commanded motion is limited to what the drive achieves, less than the case's slew "
-        "rate and 0.2 deg/s2.");
+    const auto& limits = exported.options.limits;
+    sentences.push_back(fmt::format(
+        "The commanded motion is limited to what the drive achieves: {:.3g} deg/s of {:.3g} and "
+        "{:.2g} deg/s2 of {:.2g}.",
+        limits.rate / degree, exported.wanted.rate / degree, limits.acceleration / degree,
+        exported.wanted.acceleration / degree));
   }
   return sentences;
 }
@@ -90,16 +93,23 @@ Document feedforward_and_limits(const ExportReport& report) {
 Document checks(const ExportReport& report) {
   Document text = heading("Check before loading");
   if (report.with_c) {
-    text += essential(verbatim(fmt::format(
-        "  cc -std=c99 -O2 -ffp-contract=off -o servo_controller_test servo_controller.c "
-        "servo_controller_test.c -lm\n  ./servo_controller_test vectors\n")));
+    text += essential(verbatim(
+        fmt::format("  cc -std=c99 -O2 -ffp-contract=off -o {0}_controller_test {0}_controller.c "
+                    "{0}_controller_test.c -lm\n  ./{0}_controller_test vectors\n",
+                    report.prefix)));
   }
   if (report.with_vectors) {
     text += essential(wrapped(
         "vectors/: inputs and expected outputs of 500 samples each, with tolerances in double and "
-        "single precision. docs/export.md explains signals, timing, faults and modes.",
+        "single precision.",
         "  "));
   }
+  text += essential(wrapped(
+      "On the antenna in standby: a small positive manual command raises tachometer and encoder "
+      "counts, and a pressure difference against the brakes. Correct a sign that differs before "
+      "the "
+      "loop is closed; then the stages of `boresight commission`.",
+      "  "));
   text += wrapped(fmt::format("Operations per step: at most {} floating-point.",
                               control::program::operation_count(report.exported.program)),
                   "  ");

@@ -41,23 +41,24 @@ struct ControllerProgramOptions {
 
 /// The controller as it runs on the antenna's computer: AntennaController behind a
 /// CommandPreprocessor, in the computer's own units, in named sections. Inputs:
-///   run                  close the loop; else the valve follows manual_command
+///   run                  close the loop; else standby: the valve follows manual_command
 ///   target_angle         deg at the sky, where the axis is to be at the next sample
 ///   target_rate          deg/s
 ///   manual_command       the valve's units
 ///   encoder_counts       0 to one less than a turn
 ///   tachometer           its units
-///   motor_torque         its units; only if the controller reads it
+///   pressure_difference  its units, in place of the motor torque; only if the controller reads it
 /// Outputs: valve_command (its units, for the next sample: the computation time of the design),
-/// fault, encoder_error (deg), and the reference (deg, deg/s).
+/// fault, running, position, encoder_error (deg), and the reference (deg, deg/s).
 ///
 /// At the start, and whenever `run` comes back, the controller begins in the steady state in which
 /// the valve command is what it was (AntennaController::start_from), and the reference where the
-/// encoder's error of that state puts it: no jump of the valve. From there the preprocessor moves
-/// to the target.
+/// encoder's error of that state puts it. The reference keeps the motors' rate for one sample, so
+/// that the valve does not jump, and then moves to the target within the preprocessor's limits.
 ///
-/// `fault` is 1 for an input that is not a number or beyond its range, 2 for a command that is not
-/// a number. The valve command is then 0, the safe output, and the next good sample is a start.
+/// `fault` is 1 for an input that is not finite or beyond its range, or an encoder that jumps while
+/// running, 2 for a command that is not finite. The valve command is then 0, the safe output, and
+/// the next good sample is a start. In standby an encoder may jump: its turn is found anew.
 ///
 /// Loops are written path by path, each section in transposed direct form II (A. V. Oppenheim, R.
 /// W. Schafer, Discrete-Time Signal Processing, sec. 6.3). Back calculation: their states follow

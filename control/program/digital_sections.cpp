@@ -32,8 +32,20 @@ std::string unique_name(const std::string& wanted, const std::vector<DigitalSect
   return name;
 }
 
-bool is_modal(const plant::ModalForm& form) {
-  return form.condition < plant::highest_modal_condition;
+// States one by one or in consecutive pairs, which only their own block couples.
+bool is_in_blocks(const Eigen::MatrixXd& a) {
+  Eigen::Index at = 0;
+  while (at < a.rows()) {
+    const bool pair = at + 1 < a.rows() && (a(at, at + 1) != 0.0 || a(at + 1, at) != 0.0);
+    const Eigen::Index size = pair ? 2 : 1;
+    const Eigen::Index rest = a.rows() - at - size;
+    if (!a.block(at, at + size, size, rest).isZero(0.0) ||
+        !a.block(at + size, at, rest, size).isZero(0.0)) {
+      return false;
+    }
+    at += size;
+  }
+  return true;
 }
 
 std::string state_name(std::complex<double> pole, double sample_time, Eigen::Index number) {
@@ -78,13 +90,14 @@ plant::StateSpace in_modal_blocks(const plant::StateSpace& controller) {
     throw InvalidInput(fmt::format("controller program: expected one output, found {}",
                                    controller.outputs.size()));
   }
+  if (is_in_blocks(controller.a)) return controller;
   plant::ModalForm form;
   try {
     form = plant::modal_form(controller);
   } catch (const NumericalFailure&) {
     return controller;
   }
-  if (!is_modal(form)) return controller;
+  if (!(form.condition < plant::highest_modal_condition)) return controller;
   plant::StateSpace blocks = controller;
   blocks.a.setZero();
   blocks.c.setZero();

@@ -27,10 +27,10 @@ struct DigitalSection {
 std::vector<DigitalSection> digital_sections(const Controller& controller, LoopPath path,
                                              double sample_time);
 
-/// A sampled state space in blocks of one and two states: real Jordan form without chains,
-/// x' = p x + b u of real poles and x' = [re -im; im re] x + B u of pairs, each with output weight
-/// 1 of its first state. A state space with (nearly) equal poles that have one eigenvector
-/// (plant::highest_modal_condition) is returned as it is.
+/// A sampled state space in blocks of one and two states: as it is if no others are coupled, else
+/// in real Jordan form without chains, x' = p x + b u of real poles and x' = [re -im; im re] x + B
+/// u of pairs, each with output weight 1 of its first state. A state space with (nearly) equal
+/// poles that have one eigenvector (plant::highest_modal_condition) is returned as it is.
 /// @throws InvalidInput as plant::validate; for several outputs.
 plant::StateSpace in_modal_blocks(const plant::StateSpace& controller);
 

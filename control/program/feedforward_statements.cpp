@@ -32,7 +32,7 @@ FeedforwardStatements::FeedforwardStatements(Builder& builder, const Feedforward
     supply_torque_ = gain("supply_torque", f.supply_torque, "N.m",
                           "at the supply pressure less the return pressure");
     largest_load_ = gain("largest_load", max_feedforward_load, "",
-                         "fraction of it for which the valve opens further");
+                         "largest fraction of supply_torque that is compensated");
   }
   torque_ = builder.local("commanded_torque", Type::real, "N.m", "of the commanded motion");
   flow_ = builder.local("commanded_flow", Type::real, "rad/s", "valve command without load");
@@ -57,8 +57,9 @@ FeedforwardStatements::FeedforwardStatements(Builder& builder, const Feedforward
   rest_ = gain("friction_rest", friction_rest_rate, "rad/s", "a commanded rate below is rest");
   last_friction_ = builder.state("last_friction", Type::real, "N.m", "fed forward last");
   if (motion_ != MotionTorque::unused) {
-    built_friction_ = builder.state("built_friction", Type::real, "N.m",
-                                    "fed forward before: what the measured torque holds");
+    built_friction_ =
+        builder.state("built_friction", Type::real, "N.m",
+                      "fed forward two samples ago, which the measured torque contains now");
   }
   friction_ = builder.local("friction", Type::real, "N.m", "of the commanded rate");
   speed_ = builder.local("speed", Type::real, "rad/s", "magnitude of the commanded rate");
@@ -80,18 +81,11 @@ void FeedforwardStatements::friction(Builder& builder, const Expression& rate) c
   builder.end_if();
 }
 
-void FeedforwardStatements::valve(Builder& builder, const Expression& rate,
-                                  const Expression& acceleration,
-                                  const Expression& friction_change) const {
-  Expression flow = rate_to_valve_ * rate + acceleration_to_valve_ * acceleration;
-  Expression torque = rate_to_torque_ * rate + acceleration_to_torque_ * acceleration;
+// `flow`, `torque`: of the motion, without friction.
+void FeedforwardStatements::valve(Builder& builder, Expression flow, Expression torque) const {
   builder.assign(torque_, torque);
-  if (has_friction_) {
-    flow = flow + friction_to_valve_ * friction_ + change_to_valve_ * friction_change;
-    torque = torque_ + friction_;
-  } else {
-    torque = torque_;
-  }
+  torque = torque_;
+  if (has_friction_) torque = torque + friction_;
   builder.assign(flow_, flow);
   if (!has_supply_) {
     builder.assign(valve_command_, flow_);
@@ -106,24 +100,28 @@ void FeedforwardStatements::valve(Builder& builder, const Expression& rate,
 }
 
 void FeedforwardStatements::start(Builder& builder, const Expression& rate) const {
+  Expression flow = rate_to_valve_ * rate;
   if (has_friction_) {
     friction(builder, rate);
     builder.assign(last_friction_, friction_);
     if (motion_ != MotionTorque::unused) builder.assign(built_friction_, friction_);
+    flow = flow + friction_to_valve_ * friction_;
   }
   builder.assign(rate_command_, rate_to_rate_ * rate);
-  valve(builder, rate, constant(0.0), constant(0.0));
+  valve(builder, flow, rate_to_torque_ * rate);
 }
 
 void FeedforwardStatements::compute(Builder& builder, const Expression& rate,
-                                    const Expression& acceleration) const {
+                                    const Expression& acceleration,
+                                    const Expression& next_rate) const {
   builder.assign(rate_command_, rate_to_rate_ * rate + acceleration_to_rate_ * acceleration);
-  Expression change = constant(0.0);
+  Expression flow = rate_to_valve_ * rate + acceleration_to_valve_ * acceleration;
   if (has_friction_) {
-    friction(builder, rate + acceleration * sample_time_);
-    change = (friction_ - last_friction_) / sample_time_;
+    friction(builder, next_rate);
+    flow = flow + friction_to_valve_ * friction_ +
+           change_to_valve_ * ((friction_ - last_friction_) / sample_time_);
   }
-  valve(builder, rate, acceleration, change);
+  valve(builder, flow, rate_to_torque_ * rate + acceleration_to_torque_ * acceleration);
 }
 
 void FeedforwardStatements::advance(Builder& builder) const {
@@ -132,9 +130,14 @@ void FeedforwardStatements::advance(Builder& builder) const {
   builder.assign(last_friction_, friction_);
 }
 
+bool FeedforwardStatements::has_motion_torque() const {
+  return motion_ == MotionTorque::whole ||
+         (motion_ == MotionTorque::friction_only && has_friction_);
+}
+
 Expression FeedforwardStatements::motion_torque() const {
-  const Expression motion = motion_ == MotionTorque::whole ? torque_ : constant(0.0);
-  return has_friction_ && motion_ != MotionTorque::unused ? motion + built_friction_ : motion;
+  if (motion_ != MotionTorque::whole) return built_friction_;
+  return has_friction_ ? torque_ + built_friction_ : torque_;
 }
 
 }  // namespace boresight::control::program

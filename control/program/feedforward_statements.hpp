@@ -22,20 +22,21 @@ class FeedforwardStatements {
 
   /// In steady motion with this rate (rad/s).
   void start(Builder& builder, const Expression& rate) const;
-  /// Of the commanded motion at this sample.
-  void compute(Builder& builder, const Expression& rate, const Expression& acceleration) const;
+  /// Of the commanded motion at this sample; `next_rate`: at the next one.
+  void compute(Builder& builder, const Expression& rate, const Expression& acceleration,
+               const Expression& next_rate) const;
   void advance(Builder& builder) const;
 
   // Computed by the statements above.
   const Expression& rate_feedforward() const { return rate_command_; }    // rad/s
   const Expression& valve_feedforward() const { return valve_command_; }  // rad/s
-  /// N m, to be subtracted from the measured torque.
+  /// N m, to be subtracted from the measured torque; only with has_motion_torque.
   Expression motion_torque() const;
+  bool has_motion_torque() const;
 
  private:
   void friction(Builder& builder, const Expression& rate) const;
-  void valve(Builder& builder, const Expression& rate, const Expression& acceleration,
-             const Expression& friction_change) const;
+  void valve(Builder& builder, Expression flow, Expression torque) const;
 
   bool has_friction_, has_supply_;
   MotionTorque motion_;

@@ -42,14 +42,15 @@ class Section {
     return output_;
   }
 
-  Expression advance(Builder& builder, const Expression& input) const {
-    compute(builder, input);
+  const Expression& output() const { return output_; }
+
+  // After compute.
+  void advance(Builder& builder) const {
     if (order_ == 1) builder.assign(states_[0], b_[1] * input_ - a_[0] * output_);
     if (order_ == 2) {
       builder.assign(states_[0], b_[1] * input_ - a_[0] * output_ + states_[1]);
       builder.assign(states_[1], b_[2] * input_ - a_[1] * output_);
     }
-    return output_;
   }
 
   // At rest: the output of an input (forward), or the input of an output.
@@ -81,10 +82,10 @@ class Path {
     for (const auto& section : sections_) signal = section.compute(builder, signal);
     return signal;
   }
-  Expression advance(Builder& builder, Expression signal) const {
-    for (const auto& section : sections_) signal = section.advance(builder, signal);
-    return signal;
+  void advance(Builder& builder) const {
+    for (const auto& section : sections_) section.advance(builder);
   }
+  const Expression& output() const { return sections_.back().output(); }
   Expression start_forward(Builder& builder, Expression input) const {
     for (const auto& section : sections_) input = section.start(builder, input);
     return input;
@@ -136,25 +137,31 @@ class LoopFeedback final : public FeedbackStatements {
   }
 
   Expression feedback(Builder& builder, const FeedbackInputs& inputs) override {
-    const Expression corrected =
-        compliance_ ? inputs.angle_error - compliance_->compute(builder, inputs.torque)
-                    : inputs.angle_error;
-    const Expression position = position_.compute(builder, corrected);
-    const Expression rate =
-        rate_.compute(builder, inputs.rate_feedforward - position - inputs.rate);
+    if (compliance_) compliance_->compute(builder, inputs.torque);
+    const Expression rate = compute_rate(builder, inputs, inputs.angle_error);
     return pressure_ ? rate - pressure_->compute(builder, inputs.torque) : rate;
   }
 
   void advance(Builder& builder, const FeedbackInputs& inputs, const Expression& cut) override {
-    Expression corrected =
-        conditioned_ ? inputs.angle_error + anti_windup_ * cut : inputs.angle_error;
-    if (compliance_) corrected = corrected - compliance_->advance(builder, inputs.torque);
-    const Expression position = position_.advance(builder, corrected);
-    rate_.advance(builder, inputs.rate_feedforward - position - inputs.rate);
-    if (pressure_) pressure_->advance(builder, inputs.torque);
+    if (conditioned_) {
+      // The angle error of which the limited command is the result.
+      compute_rate(builder, inputs, inputs.angle_error + anti_windup_ * cut);
+    }
+    if (compliance_) compliance_->advance(builder);
+    position_.advance(builder);
+    rate_.advance(builder);
+    if (pressure_) pressure_->advance(builder);
   }
 
  private:
+  // The rate path's output; what compliance compensation takes off is computed already.
+  Expression compute_rate(Builder& builder, const FeedbackInputs& inputs,
+                          const Expression& angle_error) {
+    const Expression position =
+        position_.compute(builder, compliance_ ? angle_error - compliance_->output() : angle_error);
+    return rate_.compute(builder, inputs.rate_feedforward - position - inputs.rate);
+  }
+
   Path rate_, position_;
   std::optional<Path> pressure_, compliance_;
   bool conditioned_;

@@ -28,17 +28,26 @@ PreprocessorStatements::PreprocessorStatements(Builder& builder, double rate_lim
       step_(builder.local("rate_step", Type::wide, "deg/s", "largest change of the rate")),
       lowest_(builder.local("lowest_rate", Type::wide, "deg/s", "at the next sample")),
       highest_(builder.local("highest_rate", Type::wide, "deg/s", "at the next sample")),
-      way_(builder.local("way", Type::wide, "deg",
-                         "to go, beyond what this sample goes if it ends at the target's rate")),
+      remaining_(
+          builder.local("remaining_distance", Type::wide, "deg",
+                        "to the target, beyond this sample's if it ends at the target's rate")),
       known_(builder.local("angle_rounding", Type::wide, "deg", "of the sum of angles")),
       steps_(builder.local("stopping_samples", Type::wide, "", "samples that a stop takes")),
       approach_(builder.local("approach_rate", Type::wide, "deg/s",
-                              "from which the rest of the way still permits a stop")) {}
+                              "from which the remaining distance still permits a stop")) {}
 
 void PreprocessorStatements::start(Builder& builder, const Expression& angle,
                                    const Expression& rate) const {
   builder.assign(angle_, angle);
-  builder.assign(rate_, limited(rate, rate_limit_));
+  builder.assign(rate_, rate);
+  builder.assign(next_rate_, rate_);
+  builder.assign(next_angle_, angle_ + sample_time_ * rate_);
+  builder.assign(acceleration_, number(0.0));
+}
+
+void PreprocessorStatements::rest(Builder& builder, const Expression& angle) const {
+  builder.assign(angle_, angle);
+  builder.assign(rate_, number(0.0));
 }
 
 void PreprocessorStatements::plan(Builder& builder, const Expression& target_angle,
@@ -46,31 +55,32 @@ void PreprocessorStatements::plan(Builder& builder, const Expression& target_ang
   constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
   const Expression t = sample_time_;
   builder.assign(step_, acceleration_limit_ * t);
-  builder.assign(lowest_, larger(rate_ - step_, -rate_limit_));
-  builder.assign(highest_, smaller(rate_ + step_, rate_limit_));
-  builder.assign(way_, target_angle - angle_ - number(0.5) * t * (rate_ + target_rate));
+  // A rate beyond the limit, as a start may have it, is reduced by the acceleration limit.
+  builder.assign(lowest_, smaller(larger(rate_ - step_, -rate_limit_), rate_ + step_));
+  builder.assign(highest_, larger(smaller(rate_ + step_, rate_limit_), rate_ - step_));
+  builder.assign(remaining_, target_angle - angle_ - number(0.5) * t * (rate_ + target_rate));
   // The start comes from an encoder, whose angles have the rounding of a turn.
   constexpr double turn = 360.0;
   builder.assign(known_, number(rounding) * (absolute(target_angle) + absolute(angle_) + step_ * t +
                                              number(turn)));
   const Expression slack = number(1e-10) * step_;
-  builder.begin_if(both(absolute(way_) <= known_,
+  builder.begin_if(both(absolute(remaining_) <= known_,
                         both(lowest_ - slack <= target_rate, target_rate <= highest_ + slack)));
   builder.assign(next_angle_, target_angle);
   builder.assign(next_rate_, target_rate);
   builder.otherwise();
   builder.assign(
       approach_,
-      number(0.5) *
-          (square_root(number(1.0) + number(8.0) * (absolute(way_) / (step_ * t))) - number(1.0)));
+      number(0.5) * (square_root(number(1.0) + number(8.0) * (absolute(remaining_) / (step_ * t))) -
+                     number(1.0)));
   builder.assign(steps_, truncated(approach_));
   builder.begin_if(steps_ < approach_);
   builder.assign(steps_, steps_ + number(1.0));
   builder.end_if();
   builder.assign(steps_, larger(steps_, number(1.0)));
-  builder.assign(approach_,
-                 absolute(way_) / (steps_ * t) + number(0.5) * step_ * (steps_ - number(1.0)));
-  builder.begin_if(way_ < number(0.0));
+  builder.assign(approach_, absolute(remaining_) / (steps_ * t) +
+                                number(0.5) * step_ * (steps_ - number(1.0)));
+  builder.begin_if(remaining_ < number(0.0));
   builder.assign(approach_, -approach_);
   builder.end_if();
   builder.assign(next_rate_, larger(smaller(target_rate + approach_, highest_), lowest_));

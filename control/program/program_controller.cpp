@@ -22,7 +22,7 @@ ProgramController::ProgramController(const Controller& controller, double sample
       inputs_{"tachometer", "encoder"},
       outputs_{"valve_command"} {
   if (reads_torque_) {
-    torque_ = variable_index(program_, "motor_torque");
+    torque_ = variable_index(program_, "pressure_difference");
     inputs_.emplace_back("motor_torque");
   }
   for (const char* reference : {"reference", "reference_rate", "reference_acceleration"}) {

@@ -54,8 +54,8 @@ class Axis {
     computer.set("tachometer",
                  (rate_ + 1e-4 * options_.command_limit * noise.real()) * signals.tachometer.scale);
     if (torque) {
-      computer.set("motor_torque", (torque_ + 1e-3 * signals.largest_torque * noise.imag()) *
-                                       signals.motor_torque.scale);
+      computer.set("pressure_difference", (torque_ + 1e-3 * signals.largest_torque * noise.imag()) *
+                                              signals.motor_torque.scale);
     }
   }
 
@@ -121,8 +121,8 @@ TestVector run(const Program& program, const ControllerProgramOptions& options,
                const Scenario& scenario, std::uint64_t seed) {
   const auto inputs = variables_of(program, Role::input);
   const auto outputs = variables_of(program, Role::output);
-  const bool torque = std::ranges::find(program.variables, "motor_torque", &Variable::name) !=
-                      program.variables.end();
+  const bool torque = std::ranges::find(program.variables, "pressure_difference",
+                                        &Variable::name) != program.variables.end();
   TestVector vector;
   vector.name = scenario.name;
   vector.description = scenario.description;
@@ -217,7 +217,7 @@ std::vector<TestVector> test_vectors(const Program& program,
              if (k == 252) {
                computer.set("encoder_counts", static_cast<double>(options.signals.encoder_counts));
              }
-             if (k == 300) computer.set("manual_command", -infinity);
+             if (k == 140) computer.set("manual_command", -infinity);
              if (k == 301) computer.set("target_rate", nan);
              if (k == 302) computer.set("encoder_counts", -1.0);
            }}};

@@ -15,6 +15,7 @@ struct ExportedController {
   /// The drive reaches the limits of the commanded motion that the mission asks for; else those in
   /// `options` are smaller.
   bool achievable_limits = true;
+  control::CommandLimits wanted;      // rad/s, rad/s2 at the sky: what the mission asks for
   double friction_feedforward = 0.0;  // fraction of the antenna's friction in the feedforward
   control::program::Program program;
   std::vector<control::program::TestVector> vectors;

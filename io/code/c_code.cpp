@@ -210,6 +210,10 @@ std::string source(const Program& program, const CWriter& writer) {
 
 #include <math.h>
 
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "The watchdog needs comparisons with NaN to be false: no -ffast-math."
+#endif
+
 const servo_parameters servo_default_parameters = {
 )";
   std::string initial, locals;
@@ -302,7 +306,9 @@ static FILE *open_in(const char *folder, const char *name)
   return file;
 }}
 
-static int run_vector(const char *folder, const char *name, const double *tolerance)
+/* Exit code. */
+static int run_vector(const char *folder, const char *name, int expected,
+                      const double *tolerance)
 {{
   char line[longest_line];
   double row[columns];
@@ -317,7 +323,8 @@ static int run_vector(const char *folder, const char *name, const double *tolera
     servo_inputs inputs;
     servo_outputs outputs;
     double found[output_count];
-    if (line[0] == '#' || read_numbers(line, row, columns) != columns) continue;
+    if (line[0] == '#') continue;
+    if (read_numbers(line, row, columns) != columns) break;
 {3}    servo_step(&servo_default_parameters, &state, &inputs, &outputs);
 {4}    for (int i = 0; i < output_count; ++i) {{
       const double difference = fabs(found[i] - row[1 + input_count + i]);
@@ -332,8 +339,8 @@ static int run_vector(const char *folder, const char *name, const double *tolera
            largest[i], tolerance[i], bad ? "  FAILED" : "");
     failed = failed || bad;
   }}
-  if (samples == 0) {{
-    fprintf(stderr, "%s/%s: no samples\n", folder, name);
+  if (samples != expected) {{
+    fprintf(stderr, "%s/%s: expected %d samples, found %d\n", folder, name, expected, samples);
     return 2;
   }}
   return failed;
@@ -352,16 +359,20 @@ int main(int argument_count, char **arguments)
   list = open_in(arguments[1], "tolerances.csv");
   if (list == NULL) return 2;
   while (fgets(line, sizeof line, list) != NULL) {{
-    double tolerance[2 * output_count];
+    double numbers[1 + 2 * output_count];
     char *comma = strchr(line, ',');
     int single = sizeof(servo_real) == sizeof(float);
     int one;
-    if (line[0] == '#' || comma == NULL ||
-        read_numbers(comma + 1, tolerance, 2 * output_count) != 2 * output_count) {{
-      continue;
+    if (line[0] == '#') continue;
+    if (comma == NULL ||
+        read_numbers(comma + 1, numbers, 1 + 2 * output_count) != 1 + 2 * output_count) {{
+      fprintf(stderr, "%s/tolerances.csv: expected a row per vector, found: %s", arguments[1], line);
+      fclose(list);
+      return 2;
     }}
     *comma = '\0';
-    one = run_vector(arguments[1], line, tolerance + (single ? output_count : 0));
+    one = run_vector(arguments[1], line, (int)numbers[0],
+                     numbers + 1 + (single ? output_count : 0));
     if (one > result) result = one;
     ++vectors;
   }}

@@ -102,7 +102,8 @@ std::string CodeWriter::statements(const std::vector<Statement>& statements, int
   for (const Statement& statement : statements) {
     switch (statement.kind) {
       case StatementKind::remark:
-        text += broken(remark(statement.remark), level);
+        text +=
+            std::string(2 * static_cast<std::size_t>(level), ' ') + remark(statement.remark) + "\n";
         break;
       case StatementKind::assignment:
         text +=

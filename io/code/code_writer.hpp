@@ -26,7 +26,8 @@ class CodeWriter {
   virtual ~CodeWriter() = default;
 
   std::string expression(const control::program::Expression& expression) const;
-  /// Indented by so many levels of two blanks; lines are broken at blanks beyond column 100.
+  /// Indented by so many levels of two blanks; lines but remarks are broken at blanks beyond column
+  /// 100.
   std::string statements(const std::vector<control::program::Statement>& statements,
                          int level) const;
 

@@ -20,10 +20,10 @@ namespace {
 // Powers of two that an encoder may have.
 constexpr double fewest_bits = 8.0, most_bits = 30.0;
 
-void set_encoder(const ComputerEntry& entry, const design::Mission& mission, CaseSignals& result) {
+void set_encoder(const Case& antenna, const ComputerEntry& entry, const design::Mission& mission,
+                 CaseSignals& result) {
   auto& signals = result.signals;
-  const bool stated = entry.encoder_counts.has_value();
-  if (stated) {
+  if (entry.encoder_counts) {
     signals.encoder_counts = *entry.encoder_counts;
   } else {
     const double step = design::encoder_step(mission.antenna);
@@ -32,14 +32,14 @@ void set_encoder(const ComputerEntry& entry, const design::Mission& mission, Cas
                              << static_cast<int>(std::clamp(bits, fewest_bits, most_bits));
   }
   signals.encoder_zero = entry.encoder_zero ? entry.encoder_zero->value : 0.0;
-  signals.encoder_centre =
-      entry.encoder_centre ? entry.encoder_centre->value : signals.encoder_zero + std::numbers::pi;
+  const double usual = antenna.axis == "elevation" ? 45.0 * degree : std::numbers::pi;
+  signals.encoder_centre = entry.encoder_centre ? entry.encoder_centre->value : usual;
   result.descriptions.push_back(
       {"encoder",
        fmt::format("{} counts per turn, 0 at {:g} deg, travel about {:g} deg",
                    signals.encoder_counts, signals.encoder_zero / degree,
                    signals.encoder_centre / degree),
-       stated});
+       entry.encoder_counts && entry.encoder_zero && entry.encoder_centre});
 }
 
 void set_tachometer(const Case& antenna, CaseSignals& result) {
@@ -87,13 +87,14 @@ void set_valve(const Case& antenna, const ComputerEntry& entry, CaseSignals& res
 
 }  // namespace
 
-CaseSignals computer_signals(const Case& antenna, const design::Mission& mission) {
+CaseSignals computer_signals(const Case& antenna, const design::Mission& mission,
+                             bool reads_torque) {
   require_simulation(antenna);
   const ComputerEntry entry = antenna.computer ? *antenna.computer : ComputerEntry{};
   CaseSignals result;
-  set_encoder(entry, mission, result);
+  set_encoder(antenna, entry, mission, result);
   set_tachometer(antenna, result);
-  set_torque(antenna, entry, result);
+  if (reads_torque) set_torque(antenna, entry, result);
   set_valve(antenna, entry, result);
   return result;
 }

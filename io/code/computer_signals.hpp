@@ -11,7 +11,7 @@ namespace boresight::io {
 
 /// A signal of the antenna's computer, for a reader.
 struct SignalDescription {
-  std::string signal;   // "encoder", "tachometer", "motor torque", "valve command"
+  std::string signal;   // "encoder", "tachometer", "pressure difference", "valve command"
   std::string scale;    // with units
   bool stated = false;  // by the case; else a default, to be replaced before use
 };
@@ -22,9 +22,11 @@ struct CaseSignals {
 };
 
 /// The signals by [computer] and [tachometer] of the case. Defaults: encoder counts 2^n nearest to
-/// the resolution (design::encoder_step), tachometer in rad/s of motor, torque as pressure
-/// difference between the ports in pascals, valve command in percent of the full stroke.
+/// the resolution (design::encoder_step), 0 at 0 deg, travel about 45 deg of an elevation axis and
+/// 180 deg of another; tachometer in rad/s of motor; torque as pressure difference between the
+/// ports in pascals, described only if `reads_torque`; valve command in percent of the full stroke.
 /// @throws InvalidInput without [simulation], which states that stroke.
-CaseSignals computer_signals(const Case& antenna, const design::Mission& mission);
+CaseSignals computer_signals(const Case& antenna, const design::Mission& mission,
+                             bool reads_torque = true);
 
 }  // namespace boresight::io

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 #include <fmt/format.h>
@@ -23,10 +24,25 @@ std::string gain_text(const GainRow& row) {
                                              : fmt::format("{:.17g} {}", row.value, row.unit);
 }
 
-// With the gains and their source in its notes.
+// Text of a user's within comments of any of the languages.
+std::string in_comment(std::string text) {
+  for (char& letter : text) {
+    if (static_cast<unsigned char>(letter) < ' ') letter = ' ';
+  }
+  for (const char* mark : {"*/", "/*", "*)", "(*", "//"}) {
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark)) {
+      text.insert(at + 1, " ");
+    }
+  }
+  return text;
+}
+
+// With antenna, gains and their source in its notes.
 Program described_program(const design::ExportedController& exported,
                           const ExportOptions& options) {
   Program program = exported.program;
+  if (!options.antenna.empty()) program.notes.push_back(options.antenna + ".");
+  program.notes.push_back(fmt::format("Sample time: {:.9g} s.", program.sample_time));
   program.notes.push_back(fmt::format("Controller: {}.", options.source));
   std::string gains;
   for (const auto& row : gain_rows(exported.controller)) {
@@ -34,7 +50,47 @@ Program described_program(const design::ExportedController& exported,
                          row.unit == "1" ? "" : " ", row.unit == "1" ? "" : row.unit);
   }
   if (!gains.empty()) program.notes.push_back("Gains at the motor shaft: " + gains + ".");
+  program.title = in_comment(program.title);
+  for (auto& note : program.notes) note = in_comment(note);
+  for (auto& variable : program.variables) {
+    variable.comment = in_comment(variable.comment);
+    variable.unit = in_comment(variable.unit);
+  }
   return program;
+}
+
+void replace_all(std::string& text, std::string_view old, const std::string& by) {
+  for (auto at = text.find(old); at != std::string::npos; at = text.find(old, at + by.size())) {
+    text.replace(at, old.size(), by);
+  }
+}
+
+void rename(CodeFile& file, const std::string& prefix) {
+  if (prefix == "servo") return;
+  std::string upper = prefix;
+  for (char& letter : upper) {
+    letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  }
+  for (std::string* text : {&file.name, &file.content}) {
+    replace_all(*text, "servo_", prefix + "_");
+    replace_all(*text, "SERVO_", upper + "_");
+  }
+}
+
+void require_prefix(const std::string& prefix) {
+  constexpr std::size_t longest = 20;
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const bool good =
+      !prefix.empty() && prefix.size() <= longest && is_letter(prefix.front()) &&
+      std::ranges::all_of(prefix, [&](char c) {
+        return is_letter(c) || c == '_' || std::isdigit(static_cast<unsigned char>(c)) != 0;
+      });
+  if (!good) {
+    throw InvalidInput(fmt::format(
+        "export: expected a prefix of at most {} letters, digits and underscores that begins with "
+        "a letter, found '{}'",
+        longest, prefix));
+  }
 }
 
 CodeFile controller_to_read(const design::ExportedController& exported,
@@ -115,6 +171,7 @@ std::vector<GainRow> gain_rows(const control::Controller& controller) {
 
 std::vector<CodeFile> exported_files(const design::ExportedController& exported,
                                      const CaseSignals& signals, const ExportOptions& options) {
+  require_prefix(options.prefix);
   const Program program = described_program(exported, options);
   std::vector<CodeFile> files;
   bool tested = false;
@@ -142,6 +199,7 @@ std::vector<CodeFile> exported_files(const design::ExportedController& exported,
     for (auto& file : vectors) file.name = "vectors/" + file.name;
     append(files, std::move(vectors));
   }
+  for (auto& file : files) rename(file, options.prefix);
   files.push_back(controller_to_read(exported, options));
   return files;
 }

@@ -19,7 +19,11 @@ struct ExportOptions {
   control::program::Precision precision = control::program::Precision::double_precision;
   /// The user's name of the structure, for a file of gains.
   std::string structure;
-  std::string source;  // where the controller comes from, in words
+  std::string source;   // where the controller comes from, in words
+  std::string antenna;  // antenna, axis and case, for the heads of the files
+  /// Begins the names of files, types and functions: "servo". A letter, then letters, digits and
+  /// underscores. Two axes in one computer have two.
+  std::string prefix = "servo";
 };
 
 /// A gain, or a quantity derived from gains, in SI at the motor shaft.

@@ -64,7 +64,7 @@ class OctaveWriter final : public CodeWriter {
         return fmt::format("max({}, {})", operands[0], operands[1]);
       case Operation::to_real:
       case Operation::to_wide:
-        return fmt::format("({})", operands[0]);
+        return fmt::format("double({})", operands[0]);
       default:
         throw std::logic_error("Octave code: an unknown operation");
     }

@@ -119,9 +119,11 @@ end
 text = sprintf('Blocks and state space differ by %.1e at 5 %% of the sampling rate.', ...
                       difference);
 disp(text);
+if difference > 1e-9, error('Blocks and state space do not agree.'); end
 
 if exist('new_system') == 5 && exist('simulink') > 0
-  model = 'servo_model';
+  model = 'servo_loop';
+  if bdIsLoaded(model), close_system(model, 0); end
   new_system(model);
   add_block('built-in/Inport', [model '/signals']);
   add_block('built-in/DiscreteStateSpace', [model '/feedback'], 'A', 'feedback.A', ...

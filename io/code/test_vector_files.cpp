@@ -28,7 +28,7 @@ std::vector<CodeFile> test_vector_files(const Program& program,
                                         const std::vector<control::program::TestVector>& vectors) {
   std::vector<CodeFile> files;
   std::string tolerances =
-      fmt::format("# vector{}{}\n", columns(program, Role::output, " (double)"),
+      fmt::format("# vector,samples{}{}\n", columns(program, Role::output, " (double)"),
                   columns(program, Role::output, " (single)"));
   for (const auto& vector : vectors) {
     std::string text = fmt::format("# {}\n# sample{}{}\n", vector.description,
@@ -36,8 +36,8 @@ std::vector<CodeFile> test_vector_files(const Program& program,
     for (std::size_t k = 0; k < vector.inputs.size(); ++k) {
       text += fmt::format("{}{}{}\n", k, numbers(vector.inputs[k]), numbers(vector.outputs[k]));
     }
-    tolerances += fmt::format("{}.csv{}{}\n", vector.name, numbers(vector.double_tolerance),
-                              numbers(vector.single_tolerance));
+    tolerances += fmt::format("{}.csv,{}{}{}\n", vector.name, vector.inputs.size(),
+                              numbers(vector.double_tolerance), numbers(vector.single_tolerance));
     files.push_back({vector.name + ".csv", std::move(text)});
   }
   files.push_back({"tolerances.csv", std::move(tolerances)});

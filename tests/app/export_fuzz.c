@@ -53,6 +53,8 @@ int main(int argument_count, char **arguments)
   const servo_parameters *parameters = &servo_default_parameters;
   const double limit = (double)parameters->command_limit * (double)parameters->valve_scale;
   servo_state state;
+  const uint64_t turn = (uint64_t)servo_default_parameters.counts_per_turn;
+  uint64_t counts = 0;
   servo_inputs inputs = {0};
   servo_outputs outputs;
   long faults = 0;
@@ -63,22 +65,25 @@ int main(int argument_count, char **arguments)
   word = strtoull(arguments[2], NULL, 10) * 2 + 1;
   servo_initialise(&state);
   for (long k = 0; k < steps; ++k) {
-    inputs.run = random_word() % 1000 != 0;
+    inputs.run = random_word() % 50 != 0;
     inputs.target_angle = any_number(400.0);
     inputs.target_rate = any_number(0.3);
     inputs.manual_command = any_real(2.0 * limit);
-    inputs.encoder_counts =
-        random_word() % 64 == 0
-            ? (int32_t)(uint32_t)random_word()
-            : (int32_t)(random_word() % (uint64_t)parameters->counts_per_turn);
+    if (random_word() % 256 == 0) {
+      inputs.encoder_counts = (int32_t)(uint32_t)random_word();
+    } else {
+      /* A walk of some tens of counts, through the wrap too. */
+      counts = (counts + random_word() % 101 + turn - 50) % turn;
+      inputs.encoder_counts = (int32_t)counts;
+    }
     inputs.tachometer = any_real(0.9 * (double)parameters->largest_tachometer);
 #ifdef READS_TORQUE
-    inputs.motor_torque = any_real(0.9 * (double)parameters->largest_motor_torque);
+    inputs.pressure_difference = any_real(0.9 * (double)parameters->largest_pressure_difference);
 #endif
     servo_step(parameters, &state, &inputs, &outputs);
     if (!(fabs((double)outputs.valve_command) <= limit * (1.0 + 1e-6)) ||
         !isfinite(outputs.encoder_error) || !isfinite(outputs.reference) ||
-        !isfinite(outputs.reference_rate) || outputs.fault < 0 || outputs.fault > 1) {
+        !isfinite(outputs.reference_rate) || !isfinite(outputs.position) || outputs.fault < 0 || outputs.fault > 1) {
       printf("step %ld: valve command %g, fault %d, encoder error %g, reference %g\n", k,
              (double)outputs.valve_command, (int)outputs.fault, outputs.encoder_error,
              outputs.reference);

@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -46,9 +47,15 @@ for vector = {%s}
       inputs.(names{i}) = data(k, 1 + i);
     end
     inputs.run = data(k, 2) > 0.5;
+    if all(isfinite(inputs.encoder_counts))
+      inputs.encoder_counts = int32(inputs.encoder_counts);
+    end
     [outputs, state] = servo_controller(parameters, state, inputs);
-    printf('%%s,%%.17g,%%.17g,%%.17g,%%.17g,%%.17g\\n', vector{1}, outputs.valve_command, ...
-           outputs.fault, outputs.encoder_error, outputs.reference, outputs.reference_rate);
+    printf('%%s', vector{1});
+    for name = {%s}
+      printf(',%%.17g', outputs.(name{1}));
+    end
+    printf('\\n');
   end
 end
 servo_model
@@ -74,15 +81,15 @@ class Vectors:
     def __init__(self, folder):
         self.rows, self.names = {}, []
         tolerances = table(folder / "tolerances.csv")
-        self.outputs = [name.removesuffix(" (double)") for name in tolerances[0][1:]
+        self.outputs = [name.removesuffix(" (double)") for name in tolerances[0][2:]
                         if name.endswith(" (double)")]
         count = len(self.outputs)
         self.double, self.single = {}, {}
         for row in tolerances[1:]:
             name = row[0].removesuffix(".csv")
             self.names.append(name)
-            self.double[name] = [float(value) for value in row[1:1 + count]]
-            self.single[name] = [float(value) for value in row[1 + count:]]
+            self.double[name] = [float(value) for value in row[2:2 + count]]
+            self.single[name] = [float(value) for value in row[2 + count:]]
             lines = table(folder / row[0])
             self.inputs = lines[1][1:-count]
             self.rows[name] = [[float(value) for value in line[1:]] for line in lines[2:]]
@@ -139,6 +146,45 @@ class Export(unittest.TestCase):
         self.assertEqual(done.returncode, 1)
         self.assertIn("FAILED", done.stdout)
 
+    def test_c_test_program_refuses_vectors_cut_short(self):
+        folder = self.folders["PI", "double"]
+        short = folder / "short"
+        shutil.copytree(folder / "vectors", short)
+        text = (short / "chirp.csv").read_text()
+        (short / "chirp.csv").write_text(text[:len(text) // 2])
+        run(["gcc", "-std=c99", "-o", "whole", "servo_controller.c", "servo_controller_test.c",
+             "-lm"], folder)
+        done = subprocess.run(["./whole", "short"], cwd=folder, capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("chirp.csv: expected 500 samples", done.stderr)
+
+    def test_c_refuses_compilers_without_nan(self):
+        folder = self.folders["PI", "double"]
+        done = subprocess.run(["gcc", "-ffast-math", "-c", "-o", "fast.o", "servo_controller.c"],
+                              cwd=folder, capture_output=True, text=True)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("-ffast-math", done.stderr)
+
+    def test_single_precision_keeps_three_digits_of_the_stroke(self):
+        for (name, precision), folder in self.folders.items():
+            vectors = Vectors(folder / "vectors")
+            valve = vectors.outputs.index("valve_command")
+            for vector in vectors.names:
+                self.assertLess(vectors.single[vector][valve], 1e-3 * 40.0, f"{name} {vector}")
+
+    def test_two_axes_link_into_one_program(self):
+        folder = self.folders["PI", "double"]
+        gains = pathlib.Path(self.scratch.name) / "PI.toml"
+        run([PROGRAM, "export", self.case, "--folder", folder, "--prefix", "az", "--language", "c",
+             "--gains", gains, "--quiet"], SOURCE)
+        (folder / "both.c").write_text(
+            '#include "az_controller.h"\n#include "servo_controller.h"\n'
+            "int main(void)\n{\n  az_state a;\n  servo_state b;\n  az_initialise(&a);\n"
+            "  servo_initialise(&b);\n  return a.started || b.started;\n}\n")
+        run(["gcc", *WARNINGS, "-o", "both", "both.c", "az_controller.c", "servo_controller.c",
+             "-lm"], folder)
+        run(["./both"], folder)
+
     def test_c_keeps_its_limits_and_stays_a_number_on_random_inputs(self):
         fuzz = SOURCE / "tests/app/export_fuzz.c"
         for (name, precision), folder in self.folders.items():
@@ -180,10 +226,11 @@ class Export(unittest.TestCase):
             folder = self.folders[name, "double"]
             vectors = Vectors(folder / "vectors")
             script = OCTAVE % (", ".join(f"'{key}'" for key in vectors.inputs),
-                               ", ".join(f"'{vector}'" for vector in vectors.names))
+                               ", ".join(f"'{vector}'" for vector in vectors.names),
+                               ", ".join(f"'{output}'" for output in vectors.outputs))
             (folder / "check.m").write_text(script)
             printed = run(["octave", "--no-gui", "--quiet", "--norc", "check.m"], folder).splitlines()
-            lines = [line.split(",") for line in printed if line.count(",") == 5]
+            lines = [line.split(",") for line in printed if line.count(",") == len(vectors.outputs)]
             expected = [(vector, row[len(vectors.inputs):]) for vector in vectors.names
                         for row in vectors.rows[vector]]
             self.assertEqual(len(lines), len(expected))
@@ -237,7 +284,7 @@ class Export(unittest.TestCase):
         self.assertEqual(parameters["counts_per_turn"], 4194304)
         self.assertAlmostEqual(parameters["encoder_zero"], -3.0, places=12)
         # 2000 psi of supply make 315.62 N m: 3000 psi at 10 V.
-        self.assertAlmostEqual(parameters["torque_per_signal"], 315.62 * 1.5 / 10.0, delta=0.01)
+        self.assertAlmostEqual(parameters["torque_per_pressure"], 315.62 * 1.5 / 10.0, delta=0.01)
         # 600 rpm at 157 V, 130 teeth on 23.
         self.assertAlmostEqual(parameters["rate_per_tachometer"],
                                600.0 * 2.0 * math.pi / 60.0 * 130.0 / 23.0 / 157.0, places=9)
@@ -247,7 +294,7 @@ class Export(unittest.TestCase):
         folder = pathlib.Path(self.scratch.name) / "defaults"
         text = run([PROGRAM, "export", CASE, "--folder", folder, "--language", "json", "--gains",
                     pathlib.Path(self.scratch.name) / "PI.toml"], SOURCE)
-        self.assertIn("defaults stand for: encoder, motor torque, valve command",
+        self.assertIn("defaults stand for: encoder, valve command",
                       " ".join(text.split()))
 
     def test_details_print_feedforward_and_limits_with_units(self):

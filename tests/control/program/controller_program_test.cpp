@@ -118,7 +118,7 @@ TEST_P(OfController, CommandsValveAsAntennaController) {
     computer.set("run", 1.0);
     computer.set("encoder_counts", counts);
     computer.set("tachometer", axis.rate * signals.tachometer.scale);
-    if (torque) computer.set("motor_torque", axis.torque * signals.motor_torque.scale);
+    if (torque) computer.set("pressure_difference", axis.torque * signals.motor_torque.scale);
     const double jump = k < 1500 ? 0.0 : 2.0;
     computer.set("target_angle", 52.0 + jump + 0.004 * sample_time * k);
     computer.set("target_rate", 0.004);
@@ -153,31 +153,30 @@ TEST_P(OfController, CommandsValveAsAntennaController) {
   }
 }
 
-// In steady motion, to a target that moves on as the axis does.
+// At rest with a tachometer's noise, in motion, and beyond the rate limit; to any target.
 TEST_P(OfController, StartsWithValveCommandInForce) {
   const Controller controller = OfController::controller();
   const ControllerProgramOptions options = options_of();
   const Program program = controller_program(controller, sample_time, options);
-  const double rate = 22.5;  // rad/s of motor
-  const double rate_at_sky = rate / gear_ratio / degree;
-  const auto first_step = [&](double target, double target_rate) {
+  for (const double rate : {0.0, 0.02, -0.02, 22.5, -140.0}) {  // rad/s of motor
     Interpreter computer(program);
     computer.set("encoder_counts", 40000.0);
     computer.set("manual_command", 1.5);
     computer.set("tachometer", rate * options.signals.tachometer.scale);
     computer.step();
     EXPECT_EQ(computer.get("valve_command"), 1.5) << "standby";
+    EXPECT_EQ(computer.get("running"), 0.0);
+    EXPECT_EQ(computer.get("reference"), computer.get("position"));
     computer.set("run", 1.0);
-    computer.set("target_angle", target);
-    computer.set("target_rate", target_rate);
+    computer.set("target_angle", 80.0);
     computer.step();
-    return computer;
-  };
-  const Interpreter elsewhere = first_step(80.0, 0.0);
-  const double reference = elsewhere.get("reference") -
-                           0.5 * sample_time * (rate_at_sky + elsewhere.get("reference_rate"));
-  const Interpreter computer = first_step(reference + sample_time * rate_at_sky, rate_at_sky);
-  EXPECT_NEAR(computer.get("valve_command"), 1.5, 1e-9);
+    EXPECT_NEAR(computer.get("valve_command"), 1.5, 1e-9) << rate;
+    EXPECT_EQ(computer.get("running"), 1.0);
+    computer.step();
+    const double largest_step = 0.2 * degree * sample_time * gear_ratio;
+    const double from = std::abs(rate) < 0.15 ? 0.0 : rate;
+    EXPECT_NEAR(computer.get("reference_rate") * degree * gear_ratio, from + largest_step, 1e-9);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, OfController,
@@ -228,23 +227,71 @@ TEST(ControllerProgram, EncoderTurnsFollowTheWrapInBothDirections) {
     return computer.get("position");
   };
   const double step = 360.0 / (1 << 20);
+  computer.set("run", 1.0);
   EXPECT_DOUBLE_EQ(position_at(1048575.0), -step);
   EXPECT_DOUBLE_EQ(position_at(2.0), 2.0 * step);
   EXPECT_DOUBLE_EQ(position_at(1048570.0), -6.0 * step);
-  for (double counts = 900000.0; counts > 100000.0; counts -= 100000.0) position_at(counts);
-  position_at(50000.0);
+  for (double counts = 1047500.0; counts > 0.0; counts -= 1500.0) position_at(counts);
   EXPECT_DOUBLE_EQ(position_at(1048575.0), -360.0 - step);
+  EXPECT_EQ(computer.get("fault"), 0.0);
+}
+
+TEST(ControllerProgram, EncoderThatJumpsIsAFaultWhileRunningAndFoundAnewInStandby) {
+  const Program program = controller_program(loops("PI"), sample_time, options_of());
+  Interpreter computer(program);
+  computer.set("run", 1.0);
+  computer.set("encoder_counts", 500000.0);
+  computer.step();
+  computer.step();
+  const double before = computer.get("position");
+  computer.set("encoder_counts", 0.0);
+  computer.step();
+  EXPECT_EQ(computer.get("fault"), 1.0);
+  EXPECT_EQ(computer.get("valve_command"), 0.0);
+  EXPECT_EQ(computer.get("position"), before);
+  computer.set("encoder_counts", 500010.0);
+  computer.step();
+  EXPECT_EQ(computer.get("fault"), 0.0) << "the reading is back";
+  computer.set("encoder_counts", 0.0);
+  computer.step();
+  computer.set("run", 0.0);
+  computer.step();
+  EXPECT_EQ(computer.get("fault"), 0.0);
+  EXPECT_NEAR(computer.get("position"), -0.3 / degree, 1e-9);
+}
+
+TEST(ControllerProgram, InputsOutOfUseAreNoFault) {
+  const Program program = controller_program(loops("PI"), sample_time, options_of());
+  Interpreter computer(program);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  computer.set("target_angle", nan);
+  computer.set("manual_command", 2.0);
+  computer.step();
+  EXPECT_EQ(computer.get("fault"), 0.0);
+  EXPECT_EQ(computer.get("valve_command"), 2.0);
+  computer.set("target_angle", 10.0);
+  computer.set("manual_command", nan);
+  computer.set("run", 1.0);
+  computer.step();
+  EXPECT_EQ(computer.get("fault"), 0.0);
+  EXPECT_NEAR(computer.get("valve_command"), 2.0, 1e-9);
 }
 
 TEST(ControllerProgram, ValveClosesWhileAnInputIsNoNumberOrOutOfRange) {
   const Program program = controller_program(loops("FULL+L+C"), sample_time, options_of());
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
-  const std::vector<std::pair<const char*, double>> bad{
-      {"tachometer", nan},      {"tachometer", -infinity},     {"motor_torque", infinity},
-      {"target_angle", nan},    {"target_rate", infinity},     {"manual_command", nan},
-      {"encoder_counts", -1.0}, {"encoder_counts", 1048576.0}, {"tachometer", 200.0},
-      {"motor_torque", -30.0},  {"target_angle", 20000.0}};
+  const std::vector<std::pair<const char*, double>> bad{{"tachometer", nan},
+                                                        {"tachometer", -infinity},
+                                                        {"pressure_difference", infinity},
+                                                        {"target_angle", nan},
+                                                        {"target_rate", infinity},
+                                                        {"encoder_counts", 260000.0},
+                                                        {"encoder_counts", -1.0},
+                                                        {"encoder_counts", 1048576.0},
+                                                        {"tachometer", 200.0},
+                                                        {"pressure_difference", -30.0},
+                                                        {"target_angle", 20000.0}};
   for (const auto& [name, value] : bad) {
     Interpreter computer(program);
     computer.set("run", 1.0);

@@ -91,11 +91,12 @@ ExportReport export_case(const ExportArguments& arguments,
                           ? control::program::Precision::single_precision
                           : control::program::Precision::double_precision;
   options.prefix = arguments.prefix;
-  options.antenna = fmt::format("Antenna: {}, {}; case {}; by Boresight {}", stated.title,
-                                words_of(report.axis), arguments.case_path, BORESIGHT_VERSION);
-  options.structure = chosen.structure;
-  options.source = chosen.source;
+  const std::string axis = words_beside(stated.title, report.axis);
+  options.antenna =
+      fmt::format("Antenna: {}{}{}; case {}; by Boresight {}", stated.title,
+                  axis.empty() ? "" : ", ", axis, arguments.case_path, BORESIGHT_VERSION);
   const auto files = io::exported_files(report.exported, signals, options);
+  report.json = io::exported_json(report.exported, signals, options).content;
   const fs::path folder = arguments.folder;
   make_folders(folder, files);
   for (const auto& file : files) {
@@ -118,8 +119,16 @@ int run(ExportArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   try {
-    const Document document = document_of(export_case(arguments, interrupt_requested));
-    if (!quiet()) {
+    const std::string& json = arguments.json_path;
+    if (!json.empty() && json != "-") io::require_writable(json);
+    const ExportReport report = export_case(arguments, interrupt_requested);
+    if (json == "-") {
+      fmt::print("{}", report.json);
+    } else if (!json.empty()) {
+      io::write_atomically(json, report.json);
+    }
+    const Document document = document_of(report);
+    if (!quiet() && json != "-") {
       fmt::print("{}", arguments.details
                            ? to_text(document)
                            : to_text(short_form(document)) + "\nAll sections: --details\n");
@@ -153,6 +162,9 @@ Subcommand add_export(CLI::App& program) {
                   "begins the names of files, types and functions: one per axis of a computer")
       ->capture_default_str();
   add_controller(*sub, "the controller", arguments->controller);
+  sub->add_option("--json", arguments->json_path,
+                  "also write all parameters as JSON to this file, as --language json does; '-' "
+                  "writes JSON only, to standard output");
   sub->add_flag("--details", arguments->details,
                 "print every section of the report, not only the result");
   add_seed(*sub, arguments->seed);

@@ -20,6 +20,7 @@ struct ExportArguments {
   ControllerOptions controller;
   std::uint64_t seed = 1;
   unsigned threads = 1;
+  std::string json_path;  // "-": to standard output instead of the text; empty: nowhere
   bool details = false;
 };
 

@@ -25,6 +25,7 @@ struct ExportReport {
   std::vector<io::SignalDescription> signals;
   design::ExportedController exported;
   std::vector<io::Quantity> assumed;
+  std::string json;  // as in PREFIX_controller.json
 };
 
 Document document_of(const ExportReport& report);

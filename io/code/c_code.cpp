@@ -268,7 +268,7 @@ CodeFile c_test_program(const Program& program) {
  * FOLDER holds tolerances.csv and the vectors that it lists. Exit code 0: all agree; 1: one does
  * not; 2: a file cannot be read.
  */
-#include "servo_controller.h"
+{5}
 
 #include <math.h>
 #include <stdio.h>
@@ -384,7 +384,8 @@ int main(int argument_count, char **arguments)
   return result;
 }}
 )",
-                      input_count, output_count, names, inputs, outputs)};
+                      input_count, output_count, names, inputs, outputs,
+                      "#include \"servo_controller.h\"")};
 }
 
 }  // namespace boresight::io

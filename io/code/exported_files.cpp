@@ -169,6 +169,14 @@ std::vector<GainRow> gain_rows(const control::Controller& controller) {
   return rows;
 }
 
+CodeFile exported_json(const design::ExportedController& exported, const CaseSignals& signals,
+                       const ExportOptions& options) {
+  require_prefix(options.prefix);
+  CodeFile file = program_json(described_program(exported, options), exported, signals);
+  rename(file, options.prefix);
+  return file;
+}
+
 std::vector<CodeFile> exported_files(const design::ExportedController& exported,
                                      const CaseSignals& signals, const ExportOptions& options) {
   require_prefix(options.prefix);

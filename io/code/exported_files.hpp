@@ -48,4 +48,8 @@ std::vector<GainRow> gain_rows(const control::Controller& controller);
 std::vector<CodeFile> exported_files(const design::ExportedController& exported,
                                      const CaseSignals& signals, const ExportOptions& options);
 
+/// The file of CodeLanguage::json alone.
+CodeFile exported_json(const design::ExportedController& exported, const CaseSignals& signals,
+                       const ExportOptions& options);
+
 }  // namespace boresight::io

@@ -2,9 +2,8 @@
 #include <complex>
 #include <numbers>
 
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
+#include <gtest/gtest.h>
 
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/control/program/digital_sections.hpp>
@@ -29,7 +28,8 @@ Complex response(const plant::StateSpace& system, Eigen::Index input, Complex z)
   const Eigen::Index n = system.a.rows();
   const Eigen::MatrixXcd resolvent =
       z * Eigen::MatrixXcd::Identity(n, n) - system.a.cast<Complex>();
-  const Eigen::VectorXcd states = resolvent.partialPivLu().solve(system.b.col(input).cast<Complex>());
+  const Eigen::VectorXcd states =
+      resolvent.partialPivLu().solve(system.b.col(input).cast<Complex>());
   return (system.c.row(0).cast<Complex>() * states)(0) + system.d(0, input);
 }
 

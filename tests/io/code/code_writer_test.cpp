@@ -35,8 +35,10 @@ Program grouped() {
 TEST(CodeWriter, GroupsInC) {
   const auto code = c_code(grouped(), Precision::single_precision)[1].content;
   EXPECT_THAT(code, HasSubstr("outputs->result = inputs->one - (inputs->two - inputs->one);"));
-  EXPECT_THAT(code, HasSubstr("= (inputs->one + inputs->two) * (inputs->one - inputs->two) / (inputs->one *\n"
-                              "      inputs->two);"));
+  EXPECT_THAT(
+      code,
+      HasSubstr("= (inputs->one + inputs->two) * (inputs->one - inputs->two) / (inputs->one *\n"
+                "      inputs->two);"));
   EXPECT_THAT(code, HasSubstr("= -(inputs->one * inputs->two) + (servo_real)(inputs->angle);"));
   EXPECT_THAT(code, HasSubstr("if (!(inputs->one < inputs->two && (inputs->two < 0.1f)))"));
   EXPECT_THAT(code, HasSubstr("smaller_real(inputs->one, fabsf(inputs->two))"));
@@ -53,7 +55,8 @@ TEST(CodeWriter, GroupsInStructuredText) {
 TEST(CodeWriter, GroupsInOctave) {
   const auto code = octave_code(grouped())[0].content;
   EXPECT_THAT(code, HasSubstr("outputs.result = inputs.one - (inputs.two - inputs.one);"));
-  EXPECT_THAT(code, HasSubstr("if ~(inputs.one < inputs.two && (inputs.two < 0.10000000000000001))"));
+  EXPECT_THAT(code,
+              HasSubstr("if ~(inputs.one < inputs.two && (inputs.two < 0.10000000000000001))"));
 }
 
 TEST(RealLiteral, HasAPointAndAllDigits) {

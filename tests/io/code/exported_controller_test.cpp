@@ -29,8 +29,8 @@ control::Controller loops() {
 control::Controller state_space() {
   const auto sampled = control::sampled_controller(loops(), 0.02);
   return control::state_space_controller(
-      "state space", plant::subsystem(sampled, {"tachometer", "encoder", "motor_torque"},
-                                      {"valve_demand"}));
+      "state space",
+      plant::subsystem(sampled, {"tachometer", "encoder", "motor_torque"}, {"valve_demand"}));
 }
 
 struct Figures {
@@ -56,13 +56,13 @@ design::ReferenceTrajectory tracking_and_slew(const design::SimulatedLoop& loop,
                                               const control::CommandLimits& limits) {
   constexpr double slew_begins = 60.0, duration = 90.0;  // s
   const double gear = loop.gear_ratio;
-  auto course = design::shaped_course(
-      {limits.rate * gear, limits.acceleration * gear}, loop.sample_time,
-      design::whole_samples(duration, loop.sample_time), 4, [&](double time) {
-        const double rate = 7e-5 * gear;
-        const double jump = time < slew_begins ? 0.0 : 0.1 * degree * gear;
-        return control::CommandSample{rate * time + jump, rate, 0.0};
-      });
+  auto course =
+      design::shaped_course({limits.rate * gear, limits.acceleration * gear}, loop.sample_time,
+                            design::whole_samples(duration, loop.sample_time), 4, [&](double time) {
+                              const double rate = 7e-5 * gear;
+                              const double jump = time < slew_begins ? 0.0 : 0.1 * degree * gear;
+                              return control::CommandSample{rate * time + jump, rate, 0.0};
+                            });
   for (Eigen::Index k = 0; k < course.wind_torque.size(); ++k) {
     const double time = course.interval * static_cast<double>(k);
     course.wind_torque[k] = 5.0 + 2.0 * std::sin(0.5 * time) + std::sin(3.0 * time);
@@ -93,8 +93,8 @@ TEST(ExportedController, GivesTheSimulatedFigures) {
 TEST(ExportedController, HasTheLimitsAndFeedforwardOfTheSimulations) {
   const Case antenna = parse_case(EditedCase().text(), "case.toml");
   const design::Mission mission = mission_of(antenna);
-  const auto exported = design::exported_controller(mission, loops(),
-                                                    computer_signals(antenna, mission).signals);
+  const auto exported =
+      design::exported_controller(mission, loops(), computer_signals(antenna, mission).signals);
   EXPECT_EQ(exported.options.command_limit, 150.0);
   EXPECT_NEAR(exported.sample_time, 0.02, 1e-15);
   EXPECT_FALSE(exported.achievable_limits) << "the supply does not hold 0.25 deg/s";
@@ -151,7 +151,8 @@ TEST(ExportedFiles, KeepTextOfTheUserWithinTheirComments) {
   int heads = 0;
   for (const auto& file : files) {
     EXPECT_THAT(file.name, testing::Not(testing::HasSubstr("servo"))) << file.name;
-    if (file.content.find("Controller: /tmp/a* /f .toml * ) / / ( *.") != std::string::npos) ++heads;
+    if (file.content.find("Controller: /tmp/a* /f .toml * ) / / ( *.") != std::string::npos)
+      ++heads;
   }
   EXPECT_EQ(heads, 5) << "C source and header, ST, Octave, JSON";
   options.prefix = "2nd axis";

@@ -1,4 +1,5 @@
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include <fmt/format.h>
@@ -91,8 +92,8 @@ class Path {
     return input;
   }
   Expression start_backward(Builder& builder, Expression output) const {
-    for (auto section = sections_.rbegin(); section != sections_.rend(); ++section) {
-      output = section->start(builder, output);
+    for (const Section& section : std::views::reverse(sections_)) {
+      output = section.start(builder, output);
     }
     return output;
   }

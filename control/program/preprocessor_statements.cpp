@@ -1,4 +1,5 @@
 #include <limits>
+#include <utility>
 
 #include <boresight/control/program/preprocessor_statements.hpp>
 
@@ -13,8 +14,8 @@ Expression number(double value) {
 
 PreprocessorStatements::PreprocessorStatements(Builder& builder, double rate_limit,
                                                double acceleration_limit,
-                                               const Expression& sample_time)
-    : sample_time_(sample_time),
+                                               Expression sample_time)
+    : sample_time_(std::move(sample_time)),
       rate_limit_(builder.parameter("rate_limit", Type::wide, rate_limit, "deg/s",
                                     "of the commanded motion")),
       acceleration_limit_(builder.parameter("acceleration_limit", Type::wide, acceleration_limit,

@@ -9,7 +9,7 @@ class PreprocessorStatements {
  public:
   /// Declares parameters and states. Limits in deg/s and deg/s2; `sample_time`: a parameter.
   PreprocessorStatements(Builder& builder, double rate_limit, double acceleration_limit,
-                         const Expression& sample_time);
+                         Expression sample_time);
 
   /// The reference begins at an angle (deg), with a rate (deg/s), and keeps that rate to the next
   /// sample. A rate beyond the limit is reduced from then on.

@@ -25,6 +25,7 @@ class ProgramController final : public StartedController {
   // The runner refers to the program.
   ProgramController(const ProgramController&) = delete;
   ProgramController& operator=(const ProgramController&) = delete;
+  ~ProgramController() override = default;
 
   double sample_time() const override { return program_.sample_time; }
   const std::vector<std::string>& inputs() const override { return inputs_; }

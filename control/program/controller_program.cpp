@@ -245,6 +245,10 @@ class ProgramWriter {
     wrapped_ = builder_.local("wrapped", Type::wide, "", "turns since the last sample");
     good_ = builder_.local("good", Type::boolean, "", "the inputs can be used");
     start_rate_ = builder_.local("start_rate", Type::real, "rad/s", "of the motors at the start");
+    motor_rate_ = builder_.local("motor_rate", Type::real, "rad/s", "commanded, at this sample");
+    motor_acceleration_ = builder_.local("motor_acceleration", Type::real, "rad/s2", "commanded");
+    next_motor_rate_ =
+        builder_.local("next_motor_rate", Type::real, "rad/s", "commanded, at the next sample");
     angle_error_ = builder_.local("angle_error", Type::real, "rad", "of the motors");
     cut_ = builder_.local("cut", Type::real, "rad/s", "what the limit takes off the command");
   }
@@ -342,9 +346,11 @@ class ProgramWriter {
     preprocessor_->plan(builder_, target_angle_, target_rate_);
     builder_.end_if();
     builder_.remark("Feedforward of the commanded motion.");
-    feedforward_->compute(builder_, to_real(preprocessor_->rate() * motor_per_degree_),
-                          to_real(preprocessor_->acceleration() * motor_per_degree_),
-                          to_real(preprocessor_->next_rate() * motor_per_degree_));
+    builder_.assign(motor_rate_, to_real(preprocessor_->rate() * motor_per_degree_));
+    builder_.assign(motor_acceleration_,
+                    to_real(preprocessor_->acceleration() * motor_per_degree_));
+    builder_.assign(next_motor_rate_, to_real(preprocessor_->next_rate() * motor_per_degree_));
+    feedforward_->compute(builder_, motor_rate_, motor_acceleration_, next_motor_rate_);
     builder_.remark("Feedback.");
     builder_.assign(error_, last_position_ - preprocessor_->angle());
     builder_.assign(angle_error_, to_real(error_ * motor_per_degree_));
@@ -372,7 +378,7 @@ class ProgramWriter {
       largest_movement_, start_rest_rate_;
   Expression started_, encoder_known_, last_counts_, last_position_, turns_, command_;
   Expression demand_, error_, moved_, wrapped_, good_, start_rate_, rate_, measured_torque_,
-      excess_torque_, angle_error_, cut_;
+      excess_torque_, motor_rate_, motor_acceleration_, next_motor_rate_, angle_error_, cut_;
   std::optional<PreprocessorStatements> preprocessor_;
   std::optional<FeedforwardStatements> feedforward_;
   std::unique_ptr<FeedbackStatements> feedback_;

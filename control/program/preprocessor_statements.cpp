@@ -13,8 +13,7 @@ Expression number(double value) {
 }  // namespace
 
 PreprocessorStatements::PreprocessorStatements(Builder& builder, double rate_limit,
-                                               double acceleration_limit,
-                                               Expression sample_time)
+                                               double acceleration_limit, Expression sample_time)
     : sample_time_(std::move(sample_time)),
       rate_limit_(builder.parameter("rate_limit", Type::wide, rate_limit, "deg/s",
                                     "of the commanded motion")),

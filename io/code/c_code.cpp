@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -173,22 +174,18 @@ void servo_step(const servo_parameters *parameters, servo_state *state,
 }
 
 bool uses(const Expression& expression, Operation operation, Type type) {
-  if (expression.operation == operation && expression.type == type) return true;
-  for (const auto& operand : expression.operands) {
-    if (uses(operand, operation, type)) return true;
-  }
-  return false;
+  return (expression.operation == operation && expression.type == type) ||
+         std::ranges::any_of(expression.operands, [&](const Expression& operand) {
+           return uses(operand, operation, type);
+         });
 }
 
 bool uses(const std::vector<control::program::Statement>& statements, Operation operation,
           Type type) {
-  for (const auto& statement : statements) {
-    if (uses(statement.expression, operation, type) || uses(statement.then, operation, type) ||
-        uses(statement.otherwise, operation, type)) {
-      return true;
-    }
-  }
-  return false;
+  return std::ranges::any_of(statements, [&](const auto& statement) {
+    return uses(statement.expression, operation, type) || uses(statement.then, operation, type) ||
+           uses(statement.otherwise, operation, type);
+  });
 }
 
 std::string choosing_functions(const Program& program) {

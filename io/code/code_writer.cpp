@@ -92,7 +92,7 @@ std::string CodeWriter::broken(const std::string& line, int level) const {
     const auto blank = rest.rfind(' ', widest_line - continuation().size());
     if (blank == std::string::npos || rest.find_first_not_of(' ') > blank) break;
     text += fmt::format("{}{}\n", rest.substr(0, blank), continuation());
-    rest = indent + rest.substr(blank + 1);
+    rest.replace(0, blank + 1, indent);
   }
   return text + rest + "\n";
 }

@@ -91,6 +91,8 @@ ExportReport export_case(const ExportArguments& arguments,
                           ? control::program::Precision::single_precision
                           : control::program::Precision::double_precision;
   options.prefix = arguments.prefix;
+  options.structure = chosen.structure;
+  options.source = chosen.source;
   const std::string axis = words_beside(stated.title, report.axis);
   options.antenna =
       fmt::format("Antenna: {}{}{}; case {}; by Boresight {}", stated.title,

@@ -8,6 +8,7 @@ import csv
 import json
 import math
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -276,6 +277,13 @@ class Export(unittest.TestCase):
         first, second = (json.loads((place / "servo_controller.json").read_text())
                          for place in [folder, folder / "again"])
         self.assertEqual(first["parameters"], second["parameters"])
+
+    def test_heads_name_antenna_and_source(self):
+        for name in GAINS:
+            for file in ["servo_controller.c", "servo_controller.st", "servo_controller.m"]:
+                head = (self.folders[name, "double"] / file).read_text()[:4000]
+                self.assertIn("Antenna: DSS-14, 70-m antenna, elevation axis; case ", head)
+                self.assertRegex(head, rf"Controller: .*{re.escape(name)}\.toml")
 
     def test_scales_are_those_of_the_case(self):
         parameters = {entry["name"]: entry["value"] for entry in json.loads(

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <boresight/control/controllers/antenna_controller.hpp>
+#include <boresight/control/controllers/path_sections.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -17,17 +18,6 @@ using Eigen::Index;
 
 enum Input : Index { tachometer, angle_error, rate_feedforward, torque };
 enum Measured : Index { measured_rate, measured_angle, measured_torque };
-
-// Product of the gain blocks of a path.
-double path_gain(const Controller& controller, LoopPath path) {
-  double product = 1.0;
-  std::size_t k = 0;
-  for (const LoopBlock& block : controller.structure.blocks()) {
-    if (block.path == path && block.kind == BlockKind::gain) product *= controller.gains[k];
-    k += block.gains.size();
-  }
-  return product;
-}
 
 // Q'(0) of a pressure path, s kT/wd of a washed out gain: from its response well below all corners.
 double pressure_slope(const Controller& controller) {

@@ -63,4 +63,14 @@ std::vector<PathSection> path_sections(const Controller& controller, LoopPath pa
   return sections;
 }
 
+double path_gain(const Controller& controller, LoopPath path) {
+  double product = 1.0;
+  std::size_t k = 0;
+  for (const LoopBlock& block : controller.structure.blocks()) {
+    if (block.path == path && block.kind == BlockKind::gain) product *= controller.gains[k];
+    k += block.gains.size();
+  }
+  return product;
+}
+
 }  // namespace boresight::control

@@ -20,4 +20,7 @@ struct PathSection {
 /// (LoopPath). Gains as compensator_response.
 std::vector<PathSection> path_sections(const Controller& controller, LoopPath path);
 
+/// The product of the path's gain blocks; 1 without any.
+double path_gain(const Controller& controller, LoopPath path);
+
 }  // namespace boresight::control

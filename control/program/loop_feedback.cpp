@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/path_sections.hpp>
 #include <boresight/control/program/feedback_statements.hpp>
 
 namespace boresight::control::program {
@@ -117,13 +118,8 @@ class LoopFeedback final : public FeedbackStatements {
     pressure_ = path(LoopPath::pressure);
     compliance_ = path(LoopPath::compliance);
     if (!conditioned_) return;
-    double gain = 1.0;
-    std::size_t first = 0;
-    for (const LoopBlock& block : controller.structure.blocks()) {
-      const bool counts = block.path == LoopPath::rate || block.path == LoopPath::position;
-      if (counts && block.kind == BlockKind::gain) gain *= controller.gains[first];
-      first += block.gains.size();
-    }
+    const double gain =
+        path_gain(controller, LoopPath::rate) * path_gain(controller, LoopPath::position);
     anti_windup_ = builder.parameter("anti_windup", Type::real, back_calculation / gain, "s",
                                      "angle error per valve command beyond its limit");
   }

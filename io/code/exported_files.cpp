@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/path_sections.hpp>
 #include <boresight/io/code/c_code.hpp>
 #include <boresight/io/code/exported_files.hpp>
 #include <boresight/io/code/octave_code.hpp>
@@ -113,18 +114,6 @@ void append(std::vector<CodeFile>& files, std::vector<CodeFile> more) {
   std::ranges::move(more, std::back_inserter(files));
 }
 
-// Product of the gain blocks of a path.
-double path_gain(const control::Controller& controller, control::LoopPath path) {
-  std::size_t first = 0;
-  for (const auto& block : controller.structure.blocks()) {
-    if (block.path == path && block.kind == control::BlockKind::gain) {
-      return controller.gains[first];
-    }
-    first += block.gains.size();
-  }
-  return 1.0;
-}
-
 }  // namespace
 
 std::string_view to_string(CodeLanguage language) {
@@ -160,7 +149,7 @@ std::vector<GainRow> gain_rows(const control::Controller& controller) {
       integrals.push_back({rate ? "Kir" : "Kip",
                            fmt::format("{} integral gain, proportional gain times {}",
                                        to_string(block.path), block.gains.front().symbol),
-                           path_gain(controller, block.path) * controller.gains[first],
+                           control::path_gain(controller, block.path) * controller.gains[first],
                            rate ? "1/s" : "1/s2"});
     }
     first += block.gains.size();

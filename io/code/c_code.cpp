@@ -30,14 +30,8 @@ std::string_view type_name(Type type) {
   throw std::logic_error("C code: an unknown type");
 }
 
-std::string with_unit(const Variable& variable) {
-  if (variable.unit.empty()) return variable.comment;
-  return variable.comment.empty() ? variable.unit
-                                  : fmt::format("{}: {}", variable.unit, variable.comment);
-}
-
 std::string comment_of(const Variable& variable) {
-  const std::string text = with_unit(variable);
+  const std::string text = description_of(variable);
   return text.empty() ? "" : fmt::format(" /* {} */", text);
 }
 

@@ -33,6 +33,11 @@ std::string in_parentheses(const std::string& text) {
 
 }  // namespace
 
+std::string description_of(const control::program::Variable& variable) {
+  if (variable.unit.empty() || variable.comment.empty()) return variable.unit + variable.comment;
+  return fmt::format("{}: {}", variable.unit, variable.comment);
+}
+
 std::string real_literal(double value, bool single) {
   std::string text = single ? fmt::format("{:.9g}", value) : fmt::format("{:.17g}", value);
   const auto exponent = text.find('e');

@@ -63,6 +63,9 @@ class CodeWriter {
   control::program::Precision precision_;
 };
 
+/// Unit and comment of a variable: "deg/s: of the target"; empty without either.
+std::string description_of(const control::program::Variable& variable);
+
 /// A number with all its digits (9 of single precision), with a decimal point or an exponent.
 std::string real_literal(double value, bool single);
 

@@ -16,8 +16,7 @@ using control::program::Type;
 using control::program::Variable;
 
 std::string comment_of(const Variable& variable) {
-  std::string text = variable.unit;
-  if (!variable.comment.empty()) text += (text.empty() ? "" : ": ") + variable.comment;
+  const std::string text = description_of(variable);
   return text.empty() ? "" : "  % " + text;
 }
 
@@ -95,8 +94,7 @@ std::string described(const Program& program, Role role) {
   std::string text;
   for (const auto& variable : program.variables) {
     if (variable.role != role) continue;
-    text += fmt::format("%   {:<18} {}{}\n", variable.name,
-                        variable.unit.empty() ? "" : variable.unit + ": ", variable.comment);
+    text += fmt::format("%   {:<18} {}\n", variable.name, description_of(variable));
   }
   return text;
 }

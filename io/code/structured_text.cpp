@@ -49,8 +49,7 @@ class StructuredTextWriter final : public CodeWriter {
     std::string text = fmt::format("{}\n", opening);
     for (const Variable& variable : program().variables) {
       if (variable.role != role) continue;
-      std::string comment = variable.unit;
-      if (!variable.comment.empty()) comment += (comment.empty() ? "" : ": ") + variable.comment;
+      const std::string comment = description_of(variable);
       text += fmt::format("  {} : {}{};{}\n", variable.name, type_name(variable.type),
                           role == Role::parameter || role == Role::state
                               ? fmt::format(" := {}", literal(variable.initial, variable.type))

@@ -54,7 +54,7 @@ std::vector<Record> simulate(const io::Case& antenna, const std::string& test, s
     options.seed = seed;
     options.threads = app::all_or(0);
     options.interrupted = stop;
-    const auto chosen = app::recommended_controller(designed, options);
+    const auto chosen = app::recommended_controller(designed, "", options);
     auto run = app::run_position_test(antenna, test, chosen.controller, seed, progress);
     records.push_back(record_of(app::section_of(std::move(run), antenna, chosen.source)));
     return records;

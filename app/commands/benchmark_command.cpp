@@ -10,7 +10,6 @@
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_sensors.hpp>
@@ -68,14 +67,11 @@ Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAnt
                       double sample_time, const std::function<bool()>& interrupted) {
   ProgressLine progress("tuning and verifying");
   design::TuneOptions options;
-  if (!arguments.controller.structure.empty()) {
-    options.structures = structure_option(designed.antenna, {arguments.controller.structure});
-  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   options.interrupted = interrupted;
-  const auto chosen = recommended_controller(designed, options);
+  const auto chosen = recommended_controller(designed, arguments.controller.structure, options);
   return {design::controller_of(
       chosen.controller, fmt::format("{}, {}", chosen.structure, chosen.source), sample_time)};
 }

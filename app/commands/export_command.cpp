@@ -11,7 +11,6 @@
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/report/axis_wording.hpp>
-#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
@@ -38,13 +37,10 @@ ChosenController controller_of(const io::DesignedAntenna& designed, const io::Ca
                                const std::function<bool()>& interrupted) {
   if (auto named = named_controller(stated, arguments.controller)) return *std::move(named);
   design::TuneOptions options;
-  if (!arguments.controller.structure.empty()) {
-    options.structures = structure_option(designed.antenna, {arguments.controller.structure});
-  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  return recommended_controller(designed, options);
+  return recommended_controller(designed, arguments.controller.structure, options);
 }
 
 void make_folders(const fs::path& folder, const std::vector<io::CodeFile>& files) {

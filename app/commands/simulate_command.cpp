@@ -22,7 +22,6 @@
 #include <boresight/app/report/json_report.hpp>
 #include <boresight/app/simulate/simulated_tests.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/simulation/drive_tests.hpp>
 #include <boresight/design/simulation/test_runs.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
@@ -76,13 +75,10 @@ SimulatedController controller_of(const io::Case& antenna, const SimulateArgumen
   const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
   design::TuneOptions options;
-  if (!arguments.controller.structure.empty()) {
-    options.structures = structure_option(designed.antenna, {arguments.controller.structure});
-  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  auto recommended = recommended_controller(designed, options);
+  auto recommended = recommended_controller(designed, arguments.controller.structure, options);
   return {std::move(recommended.controller), std::move(recommended.source)};
 }
 

@@ -85,7 +85,11 @@ Document feedforward_and_limits(const ExportReport& report) {
                                  100.0 * report.exported.friction_feedforward);
   const bool integrates = std::ranges::any_of(
       program.variables, [](const auto& variable) { return variable.name == "anti_windup"; });
-  if (!integrates) note += " No anti-windup: the controller has no integral, or is a state space.";
+  if (report.exported.controller.structure.state_space() != nullptr) {
+    note += " A state space has no anti-windup.";
+  } else if (!integrates) {
+    note += " No anti-windup: no loop integrates.";
+  }
   return heading("Feedforward, anti-windup and limits") + table(std::move(rows), "lrll") +
          wrapped(note, "  ");
 }

@@ -13,7 +13,6 @@
 #include <boresight/app/redesign/resonance_verdict.hpp>
 #include <boresight/app/redesign/sections.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
-#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/uncertainty/distribution_source.hpp>
 #include <boresight/design/studies/monte_carlo_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
@@ -129,13 +128,10 @@ ChosenController make_controller(const MonteCarloArguments& arguments, const Pop
     return std::move(*named);
   }
   design::TuneOptions options;
-  if (!arguments.controller.structure.empty()) {
-    options.structures = structure_option(antenna, {arguments.controller.structure});
-  }
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.interrupted = interrupted;
-  return recommended_controller(*population, options);
+  return recommended_controller(*population, arguments.controller.structure, options);
 }
 
 // Works the missing blocks off and keeps the checkpoint fresh.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <boresight/app/tune/chosen_controller.hpp>
+#include <boresight/app/tune/structure_option.hpp>
 #include <boresight/app/tune/tune_section.hpp>
 #include <boresight/control/controllers/sample_time.hpp>
 #include <boresight/design/verification/stable_gain.hpp>
@@ -82,7 +83,8 @@ std::optional<ChosenController> named_controller(const io::Case& antenna,
 }
 
 ChosenController recommended_controller(const io::DesignedAntenna& designed,
-                                        const design::TuneOptions& options) {
+                                        const std::string& structure, design::TuneOptions options) {
+  if (!structure.empty()) options.structures = structure_option(designed.antenna, {structure});
   const auto study = study_controllers(designed.mission, designed.ensemble, options);
   if (options.interrupted && options.interrupted()) {
     throw Interrupted("interrupted while tuning the controller");

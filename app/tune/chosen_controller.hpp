@@ -45,9 +45,11 @@ std::optional<ChosenController> named_controller(const io::Case& antenna,
 
 /// The controller that every command takes where none is named: the one recommended by
 /// study_controllers; where none is fit for that, the least unfit that keeps the nominal antenna
-/// stable.
-/// @throws InfeasibleRequirement if no stable one is found; Interrupted; as study_controllers.
+/// stable. `structure`: the only one to be tuned, as --structure names it; empty: those of
+/// `options`.
+/// @throws InvalidInput as structure_option; InfeasibleRequirement if no stable one is found;
+/// Interrupted; as study_controllers.
 ChosenController recommended_controller(const io::DesignedAntenna& designed,
-                                        const design::TuneOptions& options);
+                                        const std::string& structure, design::TuneOptions options);
 
 }  // namespace boresight::app

@@ -21,23 +21,23 @@ void rename_input(plant::StateSpace& system, const std::string& from, const std:
 
 }  // namespace
 
-plant::StateSpace rate_command_loop(const plant::AntennaPlant& plant, const Controller& controller,
+plant::StateSpace rate_command_loop(const plant::StateSpace& plant, const Controller& controller,
                                     double delay) {
   plant::StateSpace state_space = rate_loop_controller(controller);
   rename_input(state_space, "tachometer", "rate_less_command");
   return plant::connect(
-      {plant::to_state_space(plant),
+      {plant,
        weighted_sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), state_space,
        delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
       {"command", "wind_torque"}, {"tachometer", "motor_torque", "valve_demand"});
 }
 
-plant::StateSpace position_command_loop(const plant::AntennaPlant& plant,
+plant::StateSpace position_command_loop(const plant::StateSpace& plant,
                                         const Controller& controller, double delay) {
   plant::StateSpace state_space = to_state_space(controller);
   rename_input(state_space, "encoder", "angle_less_command");
   return plant::connect(
-      {plant::to_state_space(plant),
+      {plant,
        weighted_sum(1.0, "encoder", -1.0, "command", "angle_less_command"), state_space,
        weighted_sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
        delay_approximant(delay, delay_order, "whole_demand", "valve_command")},

@@ -7,9 +7,9 @@
 
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_path.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
-#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::design {
 namespace {
@@ -22,6 +22,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // How far the loop gain is raised in search of the peak at which to give up.
 constexpr double highest_raise = 8.0;
 constexpr double largest_detuning = 64.0;
+// The Bode plot of a stage reaches so far below and above the crossover.
+constexpr double bode_reach = 30.0;
+constexpr Eigen::Index bode_points = 60;
 
 void check(const std::vector<EnsembleMember>& members, const CommissioningOptions& options) {
   if (members.size() < 3) {
@@ -106,6 +109,7 @@ class Plants {
     stage.kind = kind;
     stage.controller = controller;
     expect(seen, stage.expected);
+    if (stage.expected.all_stable()) stage.bode = bode(controller, seen.front().crossover);
     limit(stage);
     return stage;
   }
@@ -150,6 +154,31 @@ class Plants {
     expected.windy_valve = band(seen, [](const Seen& s) { return s.windy.valve_command; });
     expected.boresight_rms = band(seen, [](const Seen& s) { return s.boresight_rms; });
     expected.move_error = band(seen, [](const Seen& s) { return s.move_error; });
+  }
+
+  // The closed loop about its crossover, as far as the sampled command shows it.
+  StageBode bode(const StageController& controller, double crossover) {
+    const double highest =
+        std::min(bode_reach * crossover, control::nyquist_frequency(controller.controller));
+    StageBode result;
+    const Eigen::ArrayXd frequency =
+        Eigen::ArrayXd::LinSpaced(bode_points, std::log(crossover / bode_reach), std::log(highest)).exp();
+    std::vector<Eigen::ArrayXcd> responses(observers_.size());
+    each([&](std::size_t i) { responses[i] = observers_[i].response(controller, frequency); });
+    std::vector<double> before(observers_.size(), 0.0);
+    for (Eigen::Index k = 0; k < frequency.size(); ++k) {
+      std::vector<double> gains, phases;
+      for (std::size_t i = 0; i < responses.size(); ++i) {
+        gains.push_back(std::abs(responses[i][k]));
+        // Without jumps of a turn along the frequencies.
+        before[i] += std::remainder(std::arg(responses[i][k]) - before[i], two_pi);
+        phases.push_back(before[i]);
+      }
+      result.frequency.push_back(frequency[k]);
+      result.gain.push_back(plant_band(gains.front(), gains, options_.confidence));
+      result.phase.push_back(signed_plant_band(phases.front(), phases, options_.confidence));
+    }
+    return result;
   }
 
   // Where the band ends, with what is allowed for measuring; or earlier where the worst plant is at
@@ -258,38 +287,6 @@ std::string_view to_string(StageKind kind) {
   static constexpr std::array names{"as found",   "rate loop", "pressure feedback", "position loop",
                                     "compliance", "output",    "feedforward"};
   return names.at(static_cast<std::size_t>(kind));
-}
-
-PlantBand plant_band(double nominal, const std::vector<double>& values, double confidence) {
-  const bool within = confidence > 0.0 && confidence < 1.0;
-  if (values.size() < 3 || !within) {
-    throw InvalidInput(
-        fmt::format("plant_band: expected at least 3 values and a confidence within "
-                    "(0, 1), found {} and {}",
-                    values.size(), confidence));
-  }
-  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); })) {
-    return {nominal, no_number, no_number, no_number, no_number};
-  }
-  const auto [minimum, largest] = std::ranges::minmax(values);
-  const bool logarithmic = minimum > 0.0;
-  const auto count = static_cast<double>(values.size());
-  double mean = 0.0;
-  for (const double value : values) mean += (logarithmic ? std::log(value) : value) / count;
-  double square = 0.0;
-  for (const double value : values) {
-    square += std::pow((logarithmic ? std::log(value) : value) - mean, 2);
-  }
-  const double reach = numerics::student_quantile(0.5 + 0.5 * confidence, count - 1.0) *
-                       std::sqrt(square / (count - 1.0) * (1.0 + 1.0 / count));
-  double lower = mean - reach;
-  double upper = mean + reach;
-  if (logarithmic) {
-    lower = std::exp(lower);
-    upper = std::exp(upper);
-  }
-  return {nominal, minimum, largest, std::clamp(lower, 0.0, std::max(minimum, 0.0)),
-          std::max(upper, largest)};
 }
 
 double CommissioningPlan::largest_peak() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <boresight/design/commissioning/commissioning_check.hpp>
+#include <boresight/design/commissioning/plant_band.hpp>
 
 namespace boresight::design {
 
@@ -42,16 +43,6 @@ struct CommissioningOptions {
   std::function<void(std::size_t, std::size_t)> progress = {};
 };
 
-/// A quantity over the plant ensemble.
-struct PlantBand {
-  double nominal = 0.0;  // on the problem's own
-  double minimum = 0.0, largest = 0.0;
-  /// Prediction interval for one more plant at the requested confidence: Student's, from the
-  /// plants' mean and scatter under a normal distribution, of the logarithms where all are
-  /// positive. It contains the plants' own least and largest, and does not go below 0.
-  double lower = 0.0, upper = 0.0;
-};
-
 /// Limits beyond which the stage is reversed. Each is the end of the band over the plants plus the
 /// measurement allowance, or an earlier value. The earlier value is that of the worst plant with
 /// its loop gain raised until Ms reaches the abort peak. It applies where it exceeds the band by
@@ -78,11 +69,19 @@ struct StageExpectation {
   bool all_stable() const { return stable == plants; }
 };
 
+/// The closed loop from the stage's command to what is recorded of it (StageObserver::response).
+/// Empty where a plant is unstable.
+struct StageBode {
+  std::vector<double> frequency;  // rad/s
+  std::vector<PlantBand> gain, phase;  // phase in rad, without jumps of a turn
+};
+
 struct CommissioningStage {
   StageKind kind = StageKind::as_found;
   int step = 0, steps = 0;  // index among the stages of its kind, from 1; their number
   StageController controller;
   StageExpectation expected;
+  StageBode bode;
   AbortLimits abort;
 };
 
@@ -125,9 +124,5 @@ CommissioningPlan plan_commissioning(const TrackingProblem& problem,
                                      const std::optional<control::Controller>& found,
                                      const control::Controller& target, const CommandedMove& move,
                                      const CommissioningOptions& options = {});
-
-/// The band of a quantity's values over the plants; NaN if a value is not finite.
-/// @throws InvalidInput for fewer than 3 values or a confidence outside (0, 1).
-PlantBand plant_band(double nominal, const std::vector<double>& values, double confidence);
 
 }  // namespace boresight::design

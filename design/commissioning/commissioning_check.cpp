@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -61,12 +63,60 @@ Eigen::ArrayXd weights(const Eigen::ArrayXd& frequency, double highest) {
   return weight;
 }
 
+// The plant as its sensors show it.
+plant::StateSpace sensed(plant::StateSpace system, const SignalFactors& factors) {
+  const auto scale = [&](std::string_view output, double factor) {
+    const Eigen::Index row = plant::output_index(system, output);
+    system.c.row(row) *= factor;
+    system.d.row(row) *= factor;
+  };
+  scale("tachometer", factors.tachometer);
+  scale("motor_torque", factors.torque);
+  scale("encoder", factors.encoder);
+  const Eigen::Index valve = plant::input_index(system, "valve_command");
+  system.b.col(valve) *= factors.valve;
+  system.d.col(valve) *= factors.valve;
+  return system;
+}
+
+// One frequency of a stage's loop, dead time included.
+struct StagePoint {
+  plant::ResponsePoint plant;
+  std::complex<double> rate, outer, torque_path, loop;
+};
+
+StagePoint stage_point(const StageController& stage, plant::ResponsePoint plant, double frequency,
+                       double delay) {
+  const std::complex<double> late = std::polar(1.0, -frequency * delay);
+  for (auto* one : {&plant.tachometer_command, &plant.torque_command, &plant.encoder_command}) {
+    *one *= late;
+  }
+  auto controller = control::compensator_response(stage.controller, frequency);
+  if (stage.position_open) controller.position = 0.0;
+  // u = R (r - tachometer) - Q torque, r = -P (encoder - C torque).
+  StagePoint point;
+  point.plant = plant;
+  point.rate = controller.rate;
+  point.outer = controller.rate * controller.position;
+  point.torque_path = controller.pressure - point.outer * controller.compliance;
+  point.loop = 1.0 + point.rate * plant.tachometer_command +
+               point.torque_path * plant.torque_command + point.outer * plant.encoder_command;
+  return point;
+}
+
 }  // namespace
 
+bool SignalFactors::as_stated() const {
+  return valve == 1.0 && tachometer == 1.0 && torque == 1.0 && encoder == 1.0;
+}
+
 StageObserver::StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
-                             const WindTable& wind, const CommandedMove& move)
+                             const WindTable& wind, const CommandedMove& move,
+                             const SignalFactors& factors)
     : problem_(with_plant(problem, plant)),
       move_(move),
+      factors_(factors),
+      sensed_(sensed(plant::to_state_space(plant), factors)),
       evaluator_(make_adaptive_evaluator(problem_, wind)) {
   const bool moves = move.rate > 0.0 && move.acceleration > 0.0;
   if (!moves) {
@@ -76,8 +126,44 @@ StageObserver::StageObserver(const TrackingProblem& problem, const plant::Antenn
                     move.rate, move.acceleration));
   }
   const Eigen::ArrayXd frequency = analysis_grid(problem_);
-  response_ = plant::plant_response(plant, frequency);
+  response_ = sensed_response(frequency);
   wind_spectrum_ = motor_wind_spectrum(problem_, frequency);
+}
+
+plant::PlantResponse StageObserver::sensed_response(const Eigen::ArrayXd& frequency) const {
+  plant::PlantResponse response = plant::plant_response(problem_.plant, frequency);
+  for (Eigen::Index i = 0; i < frequency.size(); ++i) {
+    plant::ResponsePoint point = plant::point(response, i);
+    point.tachometer_command *= factors_.valve * factors_.tachometer;
+    point.torque_command *= factors_.valve * factors_.torque;
+    point.encoder_command *= factors_.valve * factors_.encoder;
+    point.boresight_command *= factors_.valve;
+    point.tachometer_wind *= factors_.tachometer;
+    point.torque_wind *= factors_.torque;
+    point.encoder_wind *= factors_.encoder;
+    plant::set_point(response, i, point);
+  }
+  return response;
+}
+
+plant::StateSpace StageObserver::command_loop(const StageController& stage) const {
+  return stage.position_open
+             ? control::rate_command_loop(sensed_, stage.controller, problem_.delay)
+             : control::position_command_loop(sensed_, stage.controller, problem_.delay);
+}
+
+Eigen::ArrayXcd StageObserver::response(const StageController& stage,
+                                        const Eigen::ArrayXd& frequency) const {
+  const plant::PlantResponse plant = sensed_response(frequency);
+  Eigen::ArrayXcd closed(frequency.size());
+  for (Eigen::Index i = 0; i < frequency.size(); ++i) {
+    const StagePoint point =
+        stage_point(stage, plant::point(plant, i), frequency[i], problem_.delay);
+    closed[i] = (stage.position_open ? point.rate * point.plant.tachometer_command
+                                     : point.outer * point.plant.encoder_command) /
+                point.loop;
+  }
+  return closed;
 }
 
 double StageObserver::peak(const StageController& stage) {
@@ -111,10 +197,7 @@ double StageObserver::crossover(const StageController& stage) const {
 }
 
 void StageObserver::observe_step(const StageController& stage, StageObservation& seen) const {
-  const plant::StateSpace loop =
-      stage.position_open
-          ? control::rate_command_loop(problem_.plant, stage.controller, problem_.delay)
-          : control::position_command_loop(problem_.plant, stage.controller, problem_.delay);
+  const plant::StateSpace loop = command_loop(stage);
   const double step = 60.0 / (seen.crossover * static_cast<double>(samples_watched));
   Eigen::MatrixXd input =
       Eigen::MatrixXd::Zero(samples_watched, static_cast<Eigen::Index>(loop.inputs.size()));
@@ -131,7 +214,7 @@ void StageObserver::observe_step(const StageController& stage, StageObservation&
 
 void StageObserver::observe_move(const StageController& stage, StageObservation& seen) const {
   const plant::StateSpace loop =
-      control::position_command_loop(problem_.plant, stage.controller, problem_.delay);
+      control::position_command_loop(sensed_, stage.controller, problem_.delay);
   const auto forward = stage.feedforward ? control::plant_feedforward(
                                                problem_.plant, stage.controller, problem_.delay)
                                          : control::Feedforward{};
@@ -173,20 +256,9 @@ void StageObserver::observe_recorder(const StageController& stage, StageObservat
   std::array<double, 4> windy{};
   for (Eigen::Index i = 0; i < frequency.size(); ++i) {
     const double w = frequency[i];
-    auto plant = plant::point(response_, i);
-    const std::complex<double> late = std::polar(1.0, -w * problem_.delay);
-    for (auto* one : {&plant.tachometer_command, &plant.torque_command, &plant.encoder_command}) {
-      *one *= late;
-    }
-    auto controller = control::compensator_response(stage.controller, w);
-    if (stage.position_open) controller.position = 0.0;
-    // u = R (r - tachometer) - Q torque, r = -P (encoder - C torque).
-    const std::complex<double> outer = controller.rate * controller.position;
-    const std::complex<double> torque_path = controller.pressure - outer * controller.compliance;
-    const std::complex<double> loop = 1.0 + controller.rate * plant.tachometer_command +
-                                      torque_path * plant.torque_command +
-                                      outer * plant.encoder_command;
-    const std::array<std::complex<double>, 3> to_valve{-outer / loop, -controller.rate / loop,
+    const auto [plant, rate, outer, torque_path, loop] =
+        stage_point(stage, plant::point(response_, i), w, problem_.delay);
+    const std::array<std::complex<double>, 3> to_valve{-outer / loop, -rate / loop,
                                                        -torque_path / loop};
     for (std::size_t source = 0; source < 3; ++source) {
       const auto u = to_valve[source];
@@ -197,7 +269,7 @@ void StageObserver::observe_recorder(const StageController& stage, StageObservat
       calm[3] += power * std::norm(u) * control::sample_density(stage.controller, w);
     }
     const std::complex<double> by_wind =
-        -(controller.rate * plant.tachometer_wind + torque_path * plant.torque_wind +
+        -(rate * plant.tachometer_wind + torque_path * plant.torque_wind +
           outer * plant.encoder_wind) /
         loop;
     const double power = wind_spectrum_[i] * noise_weight[i];
@@ -216,20 +288,43 @@ void StageObserver::observe_recorder(const StageController& stage, StageObservat
   if (stage.position_open) seen.calm.encoder_error = seen.windy.encoder_error = no_number;
 }
 
+// The free angle that nothing holds with the position loop open is no instability, nor is rounding.
+StageObserver::Verdict StageObserver::verdict_by_command_loop(const StageController& stage) const {
+  constexpr double rounding = 1e-6;  // 1/s
+  Verdict result;
+  result.abscissa = numerics::spectral_abscissa(command_loop(stage).a);
+  for (Eigen::Index i = 0; i < response_.frequency.size(); ++i) {
+    const StagePoint point =
+        stage_point(stage, plant::point(response_, i), response_.frequency[i], problem_.delay);
+    result.peak = std::max(result.peak, 1.0 / std::abs(point.loop));
+  }
+  result.stable = result.abscissa < rounding;
+  return result;
+}
+
+StageObserver::Verdict StageObserver::verdict(const StageController& stage) {
+  if (!factors_.as_stated()) return verdict_by_command_loop(stage);
+  const auto by_eigenvalues =
+      control::stability(problem_.plant, stage.controller, problem_.delay, response_.frequency);
+  Verdict result;
+  result.peak = peak(stage);
+  // The residue is of both loops: of an open one only the encirclements are compared with the
+  // eigenvalues.
+  result.abscissa =
+      stage.position_open
+          ? by_eigenvalues.rate_loop_abscissa
+          : std::max(by_eigenvalues.rate_loop_abscissa, by_eigenvalues.closed_loop_abscissa);
+  result.stable = result.abscissa < 0.0 && std::isfinite(result.peak) &&
+                  (stage.position_open || by_eigenvalues.dead_time_residue < 1.0);
+  return result;
+}
+
 StageObservation StageObserver::observe(const StageController& stage) {
   StageObservation seen;
-  const auto verdict =
-      control::stability(problem_.plant, stage.controller, problem_.delay, response_.frequency);
-  seen.abscissa = stage.position_open
-                      ? verdict.rate_loop_abscissa
-                      : std::max(verdict.rate_loop_abscissa, verdict.closed_loop_abscissa);
-  seen.peak = peak(stage);
-  seen.stable = seen.abscissa < 0.0 && verdict.dead_time_residue < 1.0 && std::isfinite(seen.peak);
-  if (stage.position_open) {
-    // The residue is of both loops: of an open one only the encirclements are compared with the
-    // eigenvalues.
-    seen.stable = seen.abscissa < 0.0 && std::isfinite(seen.peak);
-  }
+  const Verdict found = verdict(stage);
+  seen.abscissa = found.abscissa;
+  seen.peak = found.peak;
+  seen.stable = found.stable;
   seen.crossover = seen.stable ? crossover(stage) : no_number;
   seen.boresight_rms = seen.move_error = no_number;
   if (!seen.stable || !(seen.crossover > 0.0)) {
@@ -240,10 +335,12 @@ StageObservation StageObserver::observe(const StageController& stage) {
   }
   observe_step(stage, seen);
   observe_recorder(stage, seen);
-  if (!stage.position_open) {
+  if (!stage.position_open) observe_move(stage, seen);
+  if (!factors_.as_stated()) {
+    seen.windy = {no_number, no_number, no_number, no_number};
+  } else if (!stage.position_open) {
     seen.boresight_rms =
         std::sqrt(evaluator_.evaluate(stage.controller, false).boresight_variance());
-    observe_move(stage, seen);
   }
   return seen;
 }

@@ -4,6 +4,8 @@
 
 #include <boresight/control/controllers/controller.hpp>
 #include <boresight/design/problem/tracking_problem.hpp>
+#include <boresight/plant/antenna/plant_response.hpp>
+#include <boresight/plant/linear/state_space.hpp>
 
 namespace boresight::design {
 
@@ -49,12 +51,24 @@ struct CommandedMove {
   double acceleration = 0.0;  // rad/s2
 };
 
+/// Factors on valve and sensors of an antenna that is not wired, scaled or built as stated; -1: the
+/// wrong sign.
+struct SignalFactors {
+  double valve = 1.0, tachometer = 1.0, torque = 1.0, encoder = 1.0;
+
+  bool as_stated() const;
+};
+
 /// Evaluates controllers on one plant. Use one object per thread.
 class StageObserver {
  public:
-  /// `plant` replaces the problem's. @throws InvalidInput for a move that is not positive.
+  /// `plant` replaces the problem's. With factors other than 1, everything is as the sensors show
+  /// it, Ms is read from a grid of 60 points per decade, stability is that of command_loop.hpp, and
+  /// boresight rms and rms in wind are NaN.
+  /// @throws InvalidInput for a move that is not positive.
   StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
-                const WindTable& wind, const CommandedMove& move);
+                const WindTable& wind, const CommandedMove& move,
+                const SignalFactors& factors = {});
 
   /// Ms over the breaks that are closed, infinity for an unstable loop, by Nyquist encirclements
   /// along the frequencies. Fast. @throws InvalidInput as control::validate.
@@ -62,8 +76,19 @@ class StageObserver {
   /// All values, stability by eigenvalues. Time responses are exact at their samples; the simulated
   /// time, 60 over the crossover, has 6000 samples. @throws as peak.
   StageObservation observe(const StageController& stage);
+  /// The closed loop from its command to what is recorded of it: the tachometer with the position
+  /// loop open, else the encoder. `frequency`: rad/s, above 0, rising. Without feedforward.
+  Eigen::ArrayXcd response(const StageController& stage, const Eigen::ArrayXd& frequency) const;
 
  private:
+  struct Verdict {
+    bool stable = false;
+    double abscissa = 0.0, peak = 0.0;
+  };
+  Verdict verdict(const StageController& stage);
+  Verdict verdict_by_command_loop(const StageController& stage) const;
+  plant::StateSpace command_loop(const StageController& stage) const;
+  plant::PlantResponse sensed_response(const Eigen::ArrayXd& frequency) const;
   void observe_step(const StageController& stage, StageObservation& seen) const;
   void observe_move(const StageController& stage, StageObservation& seen) const;
   void observe_recorder(const StageController& stage, StageObservation& seen) const;
@@ -71,6 +96,8 @@ class StageObserver {
 
   TrackingProblem problem_;
   CommandedMove move_;
+  SignalFactors factors_;
+  plant::StateSpace sensed_;  // the plant as its sensors show it
   control::LoopEvaluator evaluator_;
   plant::PlantResponse response_;  // on a grid of 60 points per decade
   Eigen::ArrayXd wind_spectrum_;   // on this grid, (N m)^2/Hz

@@ -85,7 +85,7 @@ ArrayXd rms_at_speeds(const TrackingProblem& problem, const control::Controller&
   return rms;
 }
 
-using CommandLoop = plant::StateSpace (*)(const plant::AntennaPlant&, const control::Controller&,
+using CommandLoop = plant::StateSpace (*)(const plant::StateSpace&, const control::Controller&,
                                           double);
 
 // The loop's first output after a unit step of its first input, at equal steps from 0.
@@ -194,7 +194,7 @@ EnsembleCurves ensemble_curves(const TrackingProblem& problem,
       control::has_break(controller, control::LoopBreak::rate_loop_alone) ? 0 : 1;
   std::array<ArrayXd, 2> times;
   for (std::size_t loop = first; loop < times.size(); ++loop) {
-    times.at(loop) = step_grid(command_loops.at(loop)(problem.plant, controller, problem.delay));
+    times.at(loop) = step_grid(command_loops.at(loop)(plant::to_state_space(problem.plant), controller, problem.delay));
   }
   const auto curves_of = [&](TrackingProblem of_plant) {
     PlantCurves found;
@@ -202,7 +202,7 @@ EnsembleCurves ensemble_curves(const TrackingProblem& problem,
     found.boresight_rms = rms_at_speeds(of_plant, controller, winds);
     for (std::size_t loop = first; loop < times.size(); ++loop) {
       found.steps.at(loop) =
-          step_response(command_loops.at(loop)(of_plant.plant, controller, of_plant.delay),
+          step_response(command_loops.at(loop)(plant::to_state_space(of_plant.plant), controller, of_plant.delay),
                         times.at(loop)[1], step_times);
     }
     return found;

@@ -94,22 +94,6 @@ void require_prefix(const std::string& prefix) {
   }
 }
 
-CodeFile controller_to_read(const design::ExportedController& exported,
-                            const ExportOptions& options) {
-  const control::Controller& controller = exported.controller;
-  if (const plant::StateSpace* system = controller.structure.state_space()) {
-    return {"state_space.json", controller_json(*system)};
-  }
-  std::string text = fmt::format("[gains]\nstructure = \"{}\"\n", options.structure);
-  const auto& descriptions = controller.structure.gains();
-  for (std::size_t i = 0; i < descriptions.size(); ++i) {
-    const auto& [name, symbol, unit, lower, upper] = descriptions[i];
-    text +=
-        fmt::format("{} = \"{}\"\n", symbol, gain_text({symbol, name, controller.gains[i], unit}));
-  }
-  return {"gains.toml", std::move(text)};
-}
-
 void append(std::vector<CodeFile>& files, std::vector<CodeFile> more) {
   std::ranges::move(more, std::back_inserter(files));
 }
@@ -134,6 +118,20 @@ const std::vector<CodeLanguage>& code_languages() {
   static const std::vector<CodeLanguage> all{CodeLanguage::c, CodeLanguage::structured_text,
                                              CodeLanguage::simulink, CodeLanguage::json};
   return all;
+}
+
+CodeFile controller_to_read(const control::Controller& controller, const std::string& structure) {
+  if (const plant::StateSpace* system = controller.structure.state_space()) {
+    return {"state_space.json", controller_json(*system)};
+  }
+  std::string text = fmt::format("[gains]\nstructure = \"{}\"\n", structure);
+  const auto& descriptions = controller.structure.gains();
+  for (std::size_t i = 0; i < descriptions.size(); ++i) {
+    const auto& [name, symbol, unit, lower, upper] = descriptions[i];
+    text +=
+        fmt::format("{} = \"{}\"\n", symbol, gain_text({symbol, name, controller.gains[i], unit}));
+  }
+  return {"gains.toml", std::move(text)};
 }
 
 std::vector<GainRow> gain_rows(const control::Controller& controller) {
@@ -197,7 +195,7 @@ std::vector<CodeFile> exported_files(const design::ExportedController& exported,
     append(files, std::move(vectors));
   }
   for (auto& file : files) rename(file, options.prefix);
-  files.push_back(controller_to_read(exported, options));
+  files.push_back(controller_to_read(exported.controller, options.structure));
   return files;
 }
 

@@ -37,14 +37,16 @@ struct GainRow {
 /// Ki = K wi. Empty of a state space.
 std::vector<GainRow> gain_rows(const control::Controller& controller);
 
+/// A controller in the form in which every command reads it: gains.toml (--gains), with the user's
+/// name of the structure, or of a state space state_space.json (--controller). To the last bit.
+CodeFile controller_to_read(const control::Controller& controller, const std::string& structure);
+
 /// The files of a controller in the languages asked for, names relative to the folder:
 ///   c          servo_controller.h, .c, servo_controller_test.c
 ///   st         servo_controller.st
 ///   simulink   servo_controller.m, servo_parameters.m, servo_initial_state.m, servo_model.m
 ///   json       servo_controller.json: all parameters with units
-/// with test vectors in vectors/ beside the first three, and the controller in the form in which
-/// every command reads it: gains.toml (--gains), or of a state space state_space.json
-/// (--controller).
+/// with test vectors in vectors/ beside the first three, and controller_to_read.
 std::vector<CodeFile> exported_files(const design::ExportedController& exported,
                                      const CaseSignals& signals, const ExportOptions& options);
 

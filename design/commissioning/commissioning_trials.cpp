@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include <boresight/design/commissioning/commissioning_trials.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
+
+namespace boresight::design {
+namespace {
+
+// Ensembles take the samples from 0.
+constexpr std::uint64_t first_fresh_sample = 1'000'000;
+// Between two calls of TrialOptions::progress.
+constexpr std::size_t plants_together = 50;
+
+struct Outcome {
+  bool stable = false;
+  StageVerdict verdict = StageVerdict::passes;
+  std::vector<StageQuantity> outside;
+};
+
+Outcome outcome_of(const StageObservation& seen, const CommissioningStage& stage,
+                   double rms_allowance) {
+  Outcome outcome;
+  outcome.stable = seen.stable;
+  outcome.verdict = judge(seen, stage, rms_allowance).verdict;
+  if (!seen.stable) return outcome;
+  for (const StageQuantity quantity : measured_quantities(stage)) {
+    if (verdict_on(quantity, value_of(quantity, seen), 0.0, stage, rms_allowance) !=
+        StageVerdict::passes) {
+      outcome.outside.push_back(quantity);
+    }
+  }
+  return outcome;
+}
+
+void check_interrupt(const TrialOptions& options) {
+  if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
+}
+
+}  // namespace
+
+std::vector<StageTrial> try_stages(const Mission& mission, const PlantDistribution& distribution,
+                                   const CommissioningPlan& plan, const CommandedMove& move,
+                                   std::size_t count, const TrialOptions& options) {
+  if (count < 1) throw InvalidInput("try_stages: expected at least one plant, found none");
+  const TrackingProblem problem = tracking_problem(mission);
+  const WindTable wind(problem);
+  std::vector<std::vector<Outcome>> outcomes(count);
+  for (std::size_t first = 0; first < count; first += plants_together) {
+    check_interrupt(options);
+    const std::size_t together = std::min(plants_together, count - first);
+    numerics::for_each_index(together, options.threads, [&](std::size_t i) {
+      const PlantSample sample = distribution.draw(options.seed, first_fresh_sample + first + i);
+      StageObserver observer(
+          problem, plant::linear_plant(plant::changed(mission.antenna, changes_of(sample))), wind,
+          move);
+      for (const auto& stage : plan.stages) {
+        outcomes[first + i].push_back(
+            outcome_of(observer.observe(stage.controller), stage, options.rms_allowance));
+      }
+    });
+    if (options.progress) options.progress(first + together, count);
+  }
+  std::vector<StageTrial> trials(plan.stages.size());
+  for (std::size_t k = 0; k < trials.size(); ++k) {
+    StageTrial& trial = trials[k];
+    std::map<StageQuantity, std::size_t> outside;
+    for (const auto& plant : outcomes) {
+      const Outcome& outcome = plant[k];
+      ++trial.plants;
+      trial.stable += outcome.stable ? 1 : 0;
+      trial.passing += outcome.verdict == StageVerdict::passes ? 1 : 0;
+      trial.aborted += outcome.verdict == StageVerdict::abort ? 1 : 0;
+      for (const StageQuantity quantity : outcome.outside) ++outside[quantity];
+    }
+    for (const auto& [quantity, plants] : outside) {
+      if (plants <= trial.worst_outside) continue;
+      trial.worst = quantity;
+      trial.worst_outside = plants;
+    }
+  }
+  return trials;
+}
+
+std::vector<AntennaFault> usual_faults(double motors, bool feeds_torque_back) {
+  if (!(motors >= 1.0)) {
+    throw InvalidInput(fmt::format("usual_faults: expected one motor or more, found {}", motors));
+  }
+  // Of all motors' displacement what is left, and of their stiffness, which goes with its square.
+  const double displacement = (motors - 0.5) / motors;
+  const double stiffness = (motors - 0.75) / motors;
+  std::vector<AntennaFault> faults{
+      {"oil stiffness halved", {plant::scaled_by("at_shaft.oil_stiffness", 0.5)}, {}},
+      {"oil stiffness doubled", {plant::scaled_by("at_shaft.oil_stiffness", 2.0)}, {}},
+      // The valve's oil turns the motors faster, and the same pressures are less torque than shown.
+      {"one motor with half its displacement",
+       {plant::scaled_by("at_shaft.oil_stiffness", stiffness)},
+       {.valve = 1.0 / displacement, .torque = 1.0 / displacement}},
+      {"motors with twice the inertia", {plant::scaled_by("at_shaft.motor_inertia", 2.0)}, {}},
+      {"structural frequencies a quarter lower",
+       {plant::scaled_by("structure.frequencies", 0.75)},
+       {}},
+      {"valve gain halved", {}, {.valve = 0.5}},
+      {"valve gain doubled", {}, {.valve = 2.0}},
+      {"valve with the wrong sign", {}, {.valve = -1.0}},
+      {"tachometer scale halved", {}, {.tachometer = 0.5}},
+      {"tachometer scale doubled", {}, {.tachometer = 2.0}},
+      {"tachometer with the wrong sign", {}, {.tachometer = -1.0}},
+      {"encoder with the wrong sign", {}, {.encoder = -1.0}}};
+  if (feeds_torque_back) {
+    faults.push_back({"torque with the wrong sign", {}, {.torque = -1.0}});
+  }
+  return faults;
+}
+
+std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPlan& plan,
+                                   const CommandedMove& move,
+                                   const std::vector<AntennaFault>& faults,
+                                   const TrialOptions& options) {
+  check_interrupt(options);
+  const TrackingProblem problem = tracking_problem(mission);
+  const WindTable wind(problem);
+  std::vector<FaultTrial> trials(faults.size());
+  numerics::for_each_index(faults.size(), options.threads, [&](std::size_t i) {
+    const AntennaFault& fault = faults[i];
+    FaultTrial& trial = trials[i];
+    trial.fault = fault.name;
+    StageObserver observer(
+        problem, plant::linear_plant(plant::changed(mission.antenna, fault.changes)), wind, move,
+        fault.factors);
+    for (std::size_t k = 0; k < plan.stages.size() && !trial.caught; ++k) {
+      const CommissioningStage& stage = plan.stages[k];
+      if (stage.kind == StageKind::as_found) continue;
+      const StageObservation seen = observer.observe(stage.controller);
+      const StageJudgement judgement = judge(seen, stage, options.rms_allowance);
+      if (judgement.verdict == StageVerdict::passes) continue;
+      trial.caught = k;
+      trial.judgement = judgement;
+      if (judgement.worst) trial.measured = value_of(*judgement.worst, seen);
+    }
+  });
+  return trials;
+}
+
+}  // namespace boresight::design

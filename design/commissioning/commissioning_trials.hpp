@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <boresight/design/commissioning/stage_quantities.hpp>
+#include <boresight/design/ensembles/plant_distribution.hpp>
+#include <boresight/design/problem/mission.hpp>
+
+namespace boresight::design {
+
+struct TrialOptions {
+  std::uint64_t seed = 1;
+  unsigned threads = 1;
+  double rms_allowance = 1.2;  // of CommissioningOptions
+  /// Polled between plants; true ends the work (@throws Interrupted).
+  std::function<bool()> stop = {};
+  /// Called with the numbers of plants done and in total, from the calling thread.
+  std::function<void(std::size_t, std::size_t)> progress = {};
+};
+
+/// One stage on plants that are as the uncertainty set says.
+struct StageTrial {
+  std::size_t plants = 0;
+  std::size_t stable = 0;   // by eigenvalues
+  std::size_t passing = 0;  // stable, and every quantity within its pass interval
+  std::size_t aborted = 0;  // unstable or beyond an abort limit: on these plants a false alarm
+  /// The quantity that leaves its interval most often, and on how many plants.
+  std::optional<StageQuantity> worst;
+  std::size_t worst_outside = 0;
+};
+
+/// Runs every stage of a plan on `count` plants drawn from the distribution, other ones than those
+/// of an ensemble of the same seed. The same for any number of threads. Takes 20 ms per stage and
+/// plant. @throws InvalidInput without plants, and as plant::changed; Interrupted.
+std::vector<StageTrial> try_stages(const Mission& mission, const PlantDistribution& distribution,
+                                   const CommissioningPlan& plan, const CommandedMove& move,
+                                   std::size_t count, const TrialOptions& options);
+
+/// An antenna that is not as stated: built, scaled or wired otherwise.
+struct AntennaFault {
+  std::string name;
+  std::vector<plant::AntennaChange> changes;
+  SignalFactors factors;
+};
+
+/// What is wrong most often: oil stiffness halved and doubled (air, other oil volume), a motor of
+/// `motors` with half its displacement, motors of twice the inertia, structure a quarter softer,
+/// valve at half and twice the stated gain and with the wrong sign, tachometer at half and twice
+/// its scale and with the wrong sign, encoder with the wrong sign, and, where the controller feeds
+/// torque back, torque with the wrong sign. @throws InvalidInput for less than one motor.
+std::vector<AntennaFault> usual_faults(double motors, bool feeds_torque_back);
+
+/// A fault in the stages of a plan, which end with the first that does not pass.
+struct FaultTrial {
+  std::string fault;
+  /// Index of the stage that shows it: its verdict is not passes. None: no stage does.
+  std::optional<std::size_t> caught;
+  StageJudgement judgement;  // of that stage
+  double measured = 0.0;     // what it shows of judgement.worst
+};
+
+/// Runs the stages, but for the one as found, on the antenna with each fault. What is shown is the
+/// antenna as the engineer measures it, the stated sensors' noise included.
+std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPlan& plan,
+                                   const CommandedMove& move,
+                                   const std::vector<AntennaFault>& faults,
+                                   const TrialOptions& options);
+
+}  // namespace boresight::design

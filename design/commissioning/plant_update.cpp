@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include <boresight/design/commissioning/plant_update.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
+#include <boresight/plant/antenna/antenna_change.hpp>
+
+namespace boresight::design {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr std::size_t fewest_plants = 20;
+constexpr std::size_t plants_together = 50;
+constexpr double tail = 0.025;
+constexpr double certainty = 0.99;
+
+double squared_difference(const MeasuredQuantity& measured, const StageObservation& seen) {
+  const double difference = measured.value - value_of(measured.quantity, seen);
+  return std::isfinite(difference) ? std::pow(difference / comparison_deviation(measured), 2)
+                                   : infinity;
+}
+
+double mismatch_of(StageObserver& observer, const CommissioningPlan& plan,
+                   const std::vector<MeasuredStage>& records) {
+  double sum = 0.0;
+  for (const MeasuredStage& record : records) {
+    if (record.measurement.quantities.empty()) continue;
+    const StageObservation seen = observer.observe(plan.stages[record.stage].controller);
+    if (!seen.stable) return infinity;
+    for (const auto& one : record.measurement.quantities) sum += squared_difference(one, seen);
+  }
+  return sum;
+}
+
+PlantEstimate estimate(const std::vector<double>& values, const std::vector<double>& weights) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
+  PlantEstimate result;
+  double below = 0.0;
+  bool begun = false;
+  for (const std::size_t i : order) {
+    result.mean += weights[i] * values[i];
+    below += weights[i];
+    if (!begun && below >= tail) {
+      result.lower = values[i];
+      begun = true;
+    }
+    if (below - weights[i] < 1.0 - tail) result.upper = values[i];
+  }
+  return result;
+}
+
+// How much the records say of an input: by how many of its deviations it moves, and narrows.
+double informed(const InputUpdate& update) {
+  const double width = update.before.upper - update.before.lower;
+  if (!(width > 0.0)) return 0.0;
+  return std::abs(update.after.mean - update.before.mean) / width + 1.0 -
+         (update.after.upper - update.after.lower) / width;
+}
+
+struct Drawn {
+  PlantSample sample;
+  double mismatch = 0.0;
+  double final_rms = 0.0;
+};
+
+void check(const CommissioningPlan& plan, const std::vector<MeasuredStage>& records,
+           std::size_t quantities, std::size_t count) {
+  if (count < fewest_plants) {
+    throw InvalidInput(fmt::format("updated_plants: expected at least {} plants, found {}",
+                                   fewest_plants, count));
+  }
+  if (quantities == 0) {
+    throw InvalidInput("updated_plants: expected at least one measured quantity, found none");
+  }
+  for (const MeasuredStage& record : records) {
+    if (record.stage < plan.stages.size()) continue;
+    throw InvalidInput(fmt::format("updated_plants: expected a stage of the {} of the plan, found {}",
+                                   plan.stages.size(), record.stage + 1));
+  }
+}
+
+std::size_t quantities_of(const std::vector<MeasuredStage>& records) {
+  std::size_t quantities = 0;
+  for (const MeasuredStage& record : records) quantities += record.measurement.quantities.size();
+  return quantities;
+}
+
+// Of the likelihoods, that of the best plant being 1.
+std::vector<double> weights_of(const std::vector<Drawn>& drawn, double least) {
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (const Drawn& one : drawn) {
+    weights.push_back(std::exp(-0.5 * (one.mismatch - least)));
+    sum += weights.back();
+  }
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+void add_inputs(const PlantDistribution& distribution, const std::vector<Drawn>& drawn,
+                const std::vector<double>& even, const std::vector<double>& weights,
+                PlantUpdate& update) {
+  for (const UncertainInput input : distribution.inputs()) {
+    std::vector<double> values;
+    for (const Drawn& one : drawn) values.push_back(one.sample[input]);
+    update.inputs.push_back({input, estimate(values, even), estimate(values, weights)});
+  }
+  std::ranges::stable_sort(update.inputs, std::ranges::greater(), informed);
+}
+
+}  // namespace
+
+double comparison_deviation(const MeasuredQuantity& measured) {
+  constexpr double of_time = 0.03, of_overshoot = 0.02, of_rms = 0.1;
+  double model = of_rms * measured.value;
+  if (measured.quantity == StageQuantity::overshoot) {
+    model = of_overshoot;
+  } else if (measured.quantity == StageQuantity::rise_time ||
+             measured.quantity == StageQuantity::settling_time) {
+    model = of_time * measured.value;
+  }
+  return std::hypot(measured.uncertainty, model);
+}
+
+PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& distribution,
+                           const CommissioningPlan& plan, const CommandedMove& move,
+                           const std::vector<MeasuredStage>& records,
+                           const std::vector<AntennaFault>& faults, std::size_t count,
+                           const TrialOptions& options) {
+  PlantUpdate update;
+  update.plants = count;
+  update.quantities = quantities_of(records);
+  check(plan, records, update.quantities, count);
+  const TrackingProblem problem = tracking_problem(mission);
+  const WindTable wind(problem);
+  std::vector<Drawn> drawn(count);
+  for (std::size_t first = 0; first < count; first += plants_together) {
+    if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
+    const std::size_t together = std::min(plants_together, count - first);
+    numerics::for_each_index(together, options.threads, [&](std::size_t i) {
+      Drawn& one = drawn[first + i];
+      one.sample = distribution.draw(options.seed, first + i);
+      StageObserver observer(
+          problem, plant::linear_plant(plant::changed(mission.antenna, changes_of(one.sample))),
+          wind, move);
+      one.mismatch = mismatch_of(observer, plan, records);
+      one.final_rms = observer.observe(plan.stages.back().controller).boresight_rms;
+    });
+    if (options.progress) options.progress(first + together, count);
+  }
+  // A plant that is unstable at the end has no rms: not one to be left.
+  for (Drawn& one : drawn) {
+    if (std::isfinite(one.final_rms)) continue;
+    one.mismatch = infinity;
+    one.final_rms = 0.0;
+  }
+  update.mismatch = std::ranges::min(drawn, {}, &Drawn::mismatch).mismatch;
+  update.explained =
+      update.mismatch <=
+      numerics::chi_squared_quantile(certainty, static_cast<double>(update.quantities));
+  if (!update.explained) {
+    std::vector<double> mismatches(faults.size());
+    numerics::for_each_index(faults.size(), options.threads, [&](std::size_t i) {
+      StageObserver observer(
+          problem, plant::linear_plant(plant::changed(mission.antenna, faults[i].changes)), wind,
+          move, faults[i].factors);
+      mismatches[i] = mismatch_of(observer, plan, records);
+    });
+    for (std::size_t i = 0; i < faults.size(); ++i) {
+      if (mismatches[i] < update.mismatch) update.faults.push_back({faults[i].name, mismatches[i]});
+    }
+    std::ranges::stable_sort(update.faults, {}, &FaultFit::mismatch);
+  }
+  if (!std::isfinite(update.mismatch)) return update;
+  const std::vector<double> even(count, 1.0 / static_cast<double>(count));
+  const std::vector<double> weights = weights_of(drawn, update.mismatch);
+  double square = 0.0;
+  for (const double weight : weights) square += weight * weight;
+  update.effective = 1.0 / square;
+  add_inputs(distribution, drawn, even, weights, update);
+  std::vector<double> rms;
+  for (const Drawn& one : drawn) rms.push_back(one.final_rms);
+  update.final_rms_before = estimate(rms, even);
+  update.final_rms_after = estimate(rms, weights);
+  return update;
+}
+
+}  // namespace boresight::design

@@ -1,0 +1,129 @@
+#include <array>
+#include <cmath>
+
+#include <boresight/design/commissioning/stage_quantities.hpp>
+
+namespace boresight::design {
+namespace {
+
+bool is_rms(StageQuantity quantity) {
+  return quantity == StageQuantity::calm_valve || quantity == StageQuantity::calm_tachometer ||
+         quantity == StageQuantity::calm_encoder;
+}
+
+}  // namespace
+
+std::string_view to_string(StageQuantity quantity) {
+  static constexpr std::array names{
+      "rise time 10 to 90 %",     "overshoot",          "settling time into 5 %",
+      "valve command, still air", "tachometer, still air", "encoder error, still air",
+      "largest encoder error of the move"};
+  return names.at(static_cast<std::size_t>(quantity));
+}
+
+std::string_view to_string(StageVerdict verdict) {
+  static constexpr std::array names{"passes", "outside", "abort"};
+  return names.at(static_cast<std::size_t>(verdict));
+}
+
+std::vector<StageQuantity> measured_quantities(const CommissioningStage& stage) {
+  using enum StageQuantity;
+  if (!stage.expected.all_stable()) return {};
+  std::vector<StageQuantity> quantities{rise_time, overshoot, settling_time};
+  if (stage.kind == StageKind::feedforward) quantities = {move_error};
+  quantities.push_back(calm_valve);
+  quantities.push_back(stage.controller.position_open ? calm_tachometer : calm_encoder);
+  std::erase_if(quantities, [&](StageQuantity quantity) {
+    return !std::isfinite(expected_of(quantity, stage.expected).upper);
+  });
+  return quantities;
+}
+
+double value_of(StageQuantity quantity, const StageObservation& seen) {
+  switch (quantity) {
+    case StageQuantity::rise_time:
+      return seen.rise_time;
+    case StageQuantity::overshoot:
+      return seen.overshoot;
+    case StageQuantity::settling_time:
+      return seen.settling_time;
+    case StageQuantity::calm_valve:
+      return seen.calm.valve_command;
+    case StageQuantity::calm_tachometer:
+      return seen.calm.tachometer;
+    case StageQuantity::calm_encoder:
+      return seen.calm.encoder_error;
+    case StageQuantity::move_error:
+      break;
+  }
+  return seen.move_error;
+}
+
+const PlantBand& expected_of(StageQuantity quantity, const StageExpectation& expected) {
+  switch (quantity) {
+    case StageQuantity::rise_time:
+      return expected.rise_time;
+    case StageQuantity::overshoot:
+      return expected.overshoot;
+    case StageQuantity::settling_time:
+      return expected.settling_time;
+    case StageQuantity::calm_valve:
+      return expected.calm_valve;
+    case StageQuantity::calm_tachometer:
+      return expected.calm_tachometer;
+    case StageQuantity::calm_encoder:
+      return expected.calm_encoder;
+    case StageQuantity::move_error:
+      break;
+  }
+  return expected.move_error;
+}
+
+std::optional<double> abort_limit(StageQuantity quantity, const CommissioningStage& stage) {
+  switch (quantity) {
+    case StageQuantity::overshoot:
+      return stage.abort.overshoot;
+    case StageQuantity::calm_valve:
+      return stage.abort.calm_valve_rms;
+    case StageQuantity::calm_encoder:
+      return stage.abort.calm_encoder_rms;
+    default:
+      return std::nullopt;
+  }
+}
+
+PassInterval pass_interval(StageQuantity quantity, const CommissioningStage& stage,
+                           double rms_allowance) {
+  const PlantBand& band = expected_of(quantity, stage.expected);
+  const double allowance = is_rms(quantity) ? rms_allowance : 1.0;
+  return {band.lower / allowance, band.upper * allowance};
+}
+
+StageVerdict verdict_on(StageQuantity quantity, double value, double uncertainty,
+                        const CommissioningStage& stage, double rms_allowance) {
+  constexpr double coverage = 2.0;
+  const double allowed = coverage * uncertainty;
+  const auto limit = abort_limit(quantity, stage);
+  if (limit && !(value - allowed <= *limit)) return StageVerdict::abort;
+  const PassInterval interval = pass_interval(quantity, stage, rms_allowance);
+  return value + allowed >= interval.lower && value - allowed <= interval.upper
+             ? StageVerdict::passes
+             : StageVerdict::outside;
+}
+
+StageJudgement judge(const StageObservation& seen, const CommissioningStage& stage,
+                     double rms_allowance) {
+  if (!seen.stable) return {StageVerdict::abort, false, std::nullopt};
+  StageJudgement judgement;
+  for (const StageQuantity quantity : measured_quantities(stage)) {
+    const StageVerdict verdict =
+        verdict_on(quantity, value_of(quantity, seen), 0.0, stage, rms_allowance);
+    if (verdict > judgement.verdict) {
+      judgement.verdict = verdict;
+      judgement.worst = quantity;
+    }
+  }
+  return judgement;
+}
+
+}  // namespace boresight::design

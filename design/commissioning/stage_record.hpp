@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include <boresight/design/commissioning/stage_quantities.hpp>
+#include <boresight/identification/records/servo_record.hpp>
+
+namespace boresight::design {
+
+/// A quantity of a stage as a record shows it, in the unit of StageQuantity.
+struct MeasuredQuantity {
+  StageQuantity quantity = StageQuantity::rise_time;
+  double value = 0.0;
+  double uncertainty = 0.0;  // standard
+  std::size_t steps = 0;     // averaged; 0 of an rms
+};
+
+/// What a record of a stage shows.
+struct StageMeasurement {
+  std::vector<MeasuredQuantity> quantities;
+  double step_size = 0.0;  // mean of the command's steps, rad/s of motor or rad at the sky; 0: none
+  /// Why a quantity that the stage predicts is not among them, a sentence each.
+  std::vector<std::string> remarks;
+};
+
+/// Measures a record of one stage.
+///
+/// A command that steps (rate_command and motor_rate with the position loop open, position_command
+/// and encoder with it closed) gives rise time, overshoot and settling time. The step may start
+/// from a steady motion: a straight line through what is before it, up to the step's own length, is
+/// taken off command and response. The responses, over their steps, are averaged, and smoothed over
+/// a fifteenth of the rise time, as the largest value of a noisy one is too large. A step lasts to
+/// the next; settling that takes longer is not measured. The uncertainty is that of the mean of the
+/// single steps, or, of one step, that of the noise before it.
+/// A command that does not step, or none, gives the rms in still air: of valve command, of
+/// tachometer or encoder error, about a straight line. Its uncertainty is that of correlated
+/// samples: of the sum of squared autocorrelations (J. S. Bendat, A. G. Piersol, Random Data, 4th
+/// ed., 8.4).
+/// A command that ramps up and down gives the largest encoder error, of a stage with feedforward.
+/// `gear_ratio`: motor turns per antenna turn.
+/// @throws InvalidInput for a record without any signal that the stage needs, of fewer than 100
+/// samples, or without a sample time.
+StageMeasurement measure_stage(const identification::ServoRecord& record,
+                               const CommissioningStage& stage, double gear_ratio);
+
+/// A measured quantity and what it says of the stage.
+struct JudgedQuantity {
+  MeasuredQuantity measured;
+  PassInterval expected;
+  std::optional<double> abort;
+  StageVerdict verdict = StageVerdict::passes;
+};
+std::vector<JudgedQuantity> judge(const StageMeasurement& measurement,
+                                  const CommissioningStage& stage, double rms_allowance);
+/// The worst of them; passes without any.
+StageVerdict worst_verdict(const std::vector<JudgedQuantity>& judged);
+
+}  // namespace boresight::design

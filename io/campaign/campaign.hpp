@@ -6,18 +6,9 @@
 #include <boresight/identification/records/drive_record.hpp>
 #include <boresight/identification/records/record_defects.hpp>
 #include <boresight/io/case/case_declaration.hpp>
+#include <boresight/io/records/signal_source.hpp>
 
 namespace boresight::io {
-
-/// Where a signal of a record came from.
-struct SignalSource {
-  std::string signal;  // "inlet pressure 1", "tachometer", "rate command"
-  std::string column;
-  std::string unit;      // as taken
-  bool guessed = false;  // the column, by its name
-  /// What was taken for granted beside, a sentence; empty if nothing.
-  std::string remark;
-};
 
 /// What became of one recorder file.
 struct RecordNotes {

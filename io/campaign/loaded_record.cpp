@@ -13,7 +13,7 @@
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/field.hpp>
-#include <boresight/io/records/record_columns.hpp>
+#include <boresight/io/records/column_names.hpp>
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/parallel_loop.hpp>

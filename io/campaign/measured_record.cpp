@@ -10,8 +10,9 @@
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
-#include <boresight/io/records/record_columns.hpp>
+#include <boresight/io/records/column_names.hpp>
 #include <boresight/io/records/record_file.hpp>
+#include <boresight/io/records/recorded_unit.hpp>
 #include <boresight/io/units/kinds.hpp>
 #include <boresight/numerics/error.hpp>
 

@@ -11,7 +11,9 @@
 #include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
+#include <boresight/io/records/measured_column.hpp>
 #include <boresight/io/records/record_columns.hpp>
+#include <boresight/io/records/recorded_unit.hpp>
 #include <boresight/io/units/kinds.hpp>
 #include <boresight/io/units/wording.hpp>
 
@@ -19,11 +21,6 @@ namespace boresight::io {
 namespace {
 
 using identification::RawChannel;
-
-Dimension product(const Dimension& a, const Dimension& b) {
-  return {a.length + b.length, a.mass + b.mass,       a.time + b.time,
-          a.angle + b.angle,   a.current + b.current, a.level + b.level};
-}
 
 /// Turns columns of one file into channels.
 class Mapper {
@@ -52,79 +49,29 @@ class Mapper {
   }
 
  private:
-  struct Measured {
-    const RecordColumn& column;
-    Unit unit;
-    std::string unit_text;
-    std::string key;  // of the case, for messages
-    SignalSource source;
-  };
-
-  // A column with its unit: the file's, or the case's where the file states none.
-  Measured measured(const ChosenColumn& chosen, const std::optional<ColumnEntry>& entry,
-                    const std::string& signal, const std::string& key) {
-    const RecordColumn& column = table_.columns[chosen.index];
+  // A column with its unit. A column serves one signal.
+  MeasuredColumn measured(const ChosenColumn& chosen, const std::optional<ColumnEntry>& entry,
+                          const std::string& signal, const std::string& key) {
     if (!used_.insert(chosen.index).second) {
       throw InvalidInput(
           fmt::format("{}: expected a column for each signal, found {} taken for two "
                       "(say which is which in [record_columns])",
-                      table_.path, in_quotes(column.name)));
+                      table_.path, in_quotes(table_.columns[chosen.index].name)));
     }
-    Measured result{column, {}, column.unit, "record_columns." + key, {}};
-    std::string remark;
-    const std::optional<Unit> own = column.unit.empty() ? std::nullopt : recorded_unit(column.unit);
-    if (entry && !entry->unit.empty()) {
-      result.unit = parse_unit(entry->unit);
-      result.unit_text = entry->unit;
-      if (own && (own->factor != result.unit.factor || own->dimension != result.unit.dimension)) {
-        refuse_at(entry->location, entry->key,
-                  fmt::format("expected the unit that {} states, '{}', or none, found '{}'",
-                              table_.path, column.unit, entry->unit));
-      }
-      if (!own && !column.unit.empty()) {
-        remark =
-            fmt::format("the file states the unit {}, which is not known", in_quotes(column.unit));
-      }
-    } else if (own) {
-      result.unit = *own;
-    } else {
-      throw InvalidInput(fmt::format(
-          "{}: expected a unit of column {}, found {} (say it in the case: record_columns.{} = "
-          "\"{} [unit]\")",
-          table_.path, in_quotes(column.name),
-          column.unit.empty() ? "none in the file or the case" : in_quotes(column.unit), key,
-          column.name));
-    }
-    result.source = {signal, column.name, result.unit_text, chosen.guessed, remark};
-    return result;
+    return measured_column(table_, chosen, entry, signal, key);
   }
 
-  [[noreturn]] void refuse_kind(const Measured& measured, const std::string& expected) const {
-    throw InvalidInput(fmt::format("{}: expected {} in column {}, found '{}', {}", table_.path,
-                                   expected, in_quotes(measured.column.name), measured.unit_text,
-                                   measured_by(measured.unit.dimension)));
-  }
-
-  RawChannel channel(const Measured& measured, double factor) {
+  RawChannel channel(MeasuredColumn measured, double factor) {
     RawChannel result;
-    const auto& reversed = campaign_.columns.reversed;
-    const bool turned = std::any_of(reversed.begin(), reversed.end(), [&](const std::string& name) {
-      return is_named(measured.column, name);
-    });
-    SignalSource source = measured.source;
-    if (turned) source.remark += std::string(source.remark.empty() ? "" : "; ") + "sign turned";
     result.name = measured.column.name;
-    result.values = Eigen::Map<const Eigen::VectorXd>(
-                        measured.column.values.data(),
-                        static_cast<Eigen::Index>(measured.column.values.size())) *
-                    (turned ? -factor : factor);
-    notes_.sources.push_back(std::move(source));
+    result.values = scaled_values(campaign_.columns, measured, factor);
+    notes_.sources.push_back(std::move(measured.source));
     return result;
   }
 
   Eigen::VectorXd time(const ChosenColumn& chosen) {
-    const Measured column = measured(chosen, campaign_.columns.time, "time", "time");
-    if (column.unit.dimension != dimension_of(Kind::time)) refuse_kind(column, "a time");
+    const MeasuredColumn column = measured(chosen, campaign_.columns.time, "time", "time");
+    if (column.unit.dimension != dimension_of(Kind::time)) refuse_kind(table_, column, "a time");
     return channel(column, column.unit.factor).values;
   }
 
@@ -139,10 +86,11 @@ class Mapper {
 
   RawChannel pressure(const ChosenColumn& chosen, const std::vector<ColumnEntry>& entries,
                       std::size_t motor, const std::string& side) {
-    const Measured column =
+    const MeasuredColumn column =
         measured(chosen, entries.empty() ? std::nullopt : std::optional(entries[motor]),
                  fmt::format("{} pressure {}", side, motor + 1), side);
-    if (column.unit.dimension != dimension_of(Kind::pressure)) refuse_kind(column, "a pressure");
+    if (column.unit.dimension != dimension_of(Kind::pressure))
+      refuse_kind(table_, column, "a pressure");
     RawChannel result = channel(column, column.unit.factor);
     if (campaign_.instruments && campaign_.instruments->pressure_range) {
       result.upper_limit = campaign_.instruments->pressure_range->value;
@@ -154,27 +102,12 @@ class Mapper {
     return result;
   }
 
-  // Motor turns per turn of a shaft.
-  double turns(const std::string& shaft, const std::string& what) const {
-    if (shaft == "motor") return 1.0;
-    if (shaft == "antenna") return gear_ratio(antenna_);
-    const auto& tachometer = campaign_.tachometer;
-    if (!tachometer || !tachometer->motor_teeth || !tachometer->tachometer_teeth) {
-      throw InvalidInput(
-          fmt::format("{}: tachometer.motor_teeth: expected the gear of the tachometer, whose "
-                      "shaft {} is about, "
-                      "found none",
-                      antenna_.path, what));
-    }
-    return tachometer->motor_teeth->value / tachometer->tachometer_teeth->value;
-  }
-
   RawChannel tachometer(const ChosenColumn& chosen) {
-    const Measured column =
+    const MeasuredColumn column =
         measured(chosen, campaign_.columns.tachometer, "tachometer", "tachometer");
     const bool volts = column.unit.dimension == dimension_of(Kind::voltage);
     if (!volts && column.unit.dimension != dimension_of(Kind::angular_rate)) {
-      refuse_kind(column, "a voltage or an angular rate");
+      refuse_kind(table_, column, "a voltage or an angular rate");
     }
     const auto& entry = campaign_.tachometer;
     if (!entry || (volts && !entry->voltage)) {
@@ -182,9 +115,9 @@ class Mapper {
           "{}: tachometer{}: expected {} of the tachometer, which {} has in '{}', found none",
           antenna_.path, entry ? ".voltage" : "",
           volts ? "voltage and shaft_speed" : "shaft (whose rate it is)", table_.path,
-          column.unit_text));
+          column.source.unit));
     }
-    const double gear = turns(entry->shaft, "the tachometer");
+    const double gear = motor_turns(antenna_, entry->shaft, "the tachometer");
     const double per_volt = entry->voltage && entry->shaft_speed
                                 ? gear * entry->shaft_speed->value / entry->voltage->value
                                 : 0.0;
@@ -197,7 +130,7 @@ class Mapper {
   }
 
   // A command that cannot be scaled is left out, unless the case names its column.
-  std::optional<RawChannel> left_out(const Measured& column, bool wanted,
+  std::optional<RawChannel> left_out(const MeasuredColumn& column, bool wanted,
                                      const std::string& reason) {
     if (wanted) {
       throw InvalidInput(fmt::format("{}: {} for {} of {}, found none", antenna_.path, reason,
@@ -208,18 +141,19 @@ class Mapper {
     return std::nullopt;
   }
 
-  std::optional<RawChannel> scaled(const Measured& column, const std::optional<Quantity>& scale,
-                                   double gear, bool wanted, const std::string& key) {
+  std::optional<RawChannel> scaled(const MeasuredColumn& column,
+                                   const std::optional<Quantity>& scale, double gear, bool wanted,
+                                   const std::string& key) {
     if (!scale) {
       return left_out(column, wanted,
                       fmt::format("instruments.{}: expected a rate per recorded unit, '{}',", key,
-                                  column.unit_text));
+                                  column.source.unit));
     }
     if (product(dimension_of(scale->kind), column.unit.dimension) !=
         dimension_of(Kind::angular_rate)) {
       refuse_at(scale->location, scale->key,
                 fmt::format("expected a rate per '{}', in which {} has column {}, found {}",
-                            column.unit_text, table_.path, in_quotes(column.column.name),
+                            column.source.unit, table_.path, in_quotes(column.column.name),
                             in_quotes(scale->text)));
     }
     return channel(column, column.unit.factor * scale->value * gear);
@@ -237,7 +171,7 @@ class Mapper {
   std::optional<RawChannel> rate_command(const ChosenColumn& chosen) {
     if (lacks_unit(chosen)) return std::nullopt;
     const auto& entry = campaign_.columns.rate_command;
-    const Measured column = measured(chosen, entry, "rate command", "rate_command");
+    const MeasuredColumn column = measured(chosen, entry, "rate command", "rate_command");
     const auto& instruments = campaign_.instruments;
     const std::string shaft = instruments ? instruments->rate_command_shaft : "";
     if (shaft.empty()) {
@@ -245,7 +179,7 @@ class Mapper {
                       "instruments.rate_command_shaft: expected whose rate it is, 'motor', "
                       "'tachometer' or 'antenna',");
     }
-    const double gear = turns(shaft, "instruments.rate_command_shaft");
+    const double gear = motor_turns(antenna_, shaft, "instruments.rate_command_shaft");
     if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
       return channel(column, column.unit.factor * gear);
     }
@@ -256,7 +190,7 @@ class Mapper {
   std::optional<RawChannel> valve_command(const ChosenColumn& chosen) {
     if (lacks_unit(chosen)) return std::nullopt;
     const auto& entry = campaign_.columns.valve_command;
-    const Measured column = measured(chosen, entry, "valve command", "valve_command");
+    const MeasuredColumn column = measured(chosen, entry, "valve command", "valve_command");
     if (column.unit.dimension == dimension_of(Kind::angular_rate)) {
       return channel(column, column.unit.factor);
     }

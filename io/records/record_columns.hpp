@@ -5,17 +5,10 @@
 #include <vector>
 
 #include <boresight/io/case/case_campaign.hpp>
+#include <boresight/io/records/column_chooser.hpp>
 #include <boresight/io/records/record_table.hpp>
-#include <boresight/io/units/units.hpp>
 
 namespace boresight::io {
-
-/// A column of a file that was taken for a signal.
-struct ChosenColumn {
-  std::size_t index = 0;
-  /// True if recognised by its name; else the case names it.
-  bool guessed = false;
-};
 
 /// The columns of a record that hold what is known to be in it; one a motor in order.
 struct ChosenColumns {
@@ -40,16 +33,5 @@ struct ChosenColumns {
 /// has twice; for a missing or ambiguous pressure, tachometer or time. Lists the file's columns.
 ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry,
                              long motors);
-
-/// Whether a file's column is the one that a case names: equal but for the case of letters, with or
-/// without its unit in brackets.
-bool is_named(const RecordColumn& column, const std::string& name);
-
-/// "'a', 'b'", the first twenty.
-std::string columns_of(const RecordTable& table);
-
-/// A unit as recorders write it: as in a case, in any case of letters and with a few names more
-/// (volts, sec, psig, deg/sec, a degree sign). Nothing if it has no unit known.
-std::optional<Unit> recorded_unit(const std::string& text);
 
 }  // namespace boresight::io

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_header.hpp>
+#include <boresight/io/records/recorded_unit.hpp>
 #include <boresight/io/units/wording.hpp>
 #include <boresight/numerics/error.hpp>
 

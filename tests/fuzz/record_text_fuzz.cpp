@@ -5,8 +5,8 @@
 #include <string_view>
 
 #include <boresight/identification/records/record_defects.hpp>
-#include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_text.hpp>
+#include <boresight/io/records/recorded_unit.hpp>
 #include <boresight/numerics/error.hpp>
 
 using namespace boresight;

@@ -1,4 +1,5 @@
 #include <exception>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -7,17 +8,36 @@
 
 #include <boresight/app/commands/commission_command.hpp>
 #include <boresight/app/commands/progress_line.hpp>
+#include <boresight/app/commission/commission_sheets.hpp>
+#include <boresight/app/figures/figure_csv.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
+#include <boresight/io/files/input_files.hpp>
+#include <boresight/io/files/output_folder.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
 namespace {
 
+void write_sheets(const CommissionReport& report, const CommissionArguments& arguments) {
+  const std::filesystem::path folder = arguments.folder;
+  for (const auto& file : commission_files(report)) {
+    io::write_atomically((folder / file.name).string(), file.content);
+  }
+  const Page page = commission_sheets(report);
+  write_curves(page.figures, arguments.folder);
+  io::write_atomically((folder / "sheets.html").string(),
+                       to_html(page, {arguments.outputs.command_line, io::inputs_read()}));
+}
+
 int run(CommissionArguments arguments) {
   arguments.options.threads = all_or(arguments.options.threads);
   arguments.outputs.require_writable();
+  if (!arguments.folder.empty()) {
+    io::require_writable(
+        (io::output_folder(arguments.folder, "sheets") / "sheets.html").string());
+  }
   watch_for_interrupt();
   try {
     const CommissionReport report = commission_case(arguments, interrupt_requested);
@@ -25,6 +45,7 @@ int run(CommissionArguments arguments) {
                                .json = [&] { return to_json(report); },
                                .page = [&] { return page_of(report); }});
     if (report.failure) std::rethrow_exception(report.failure);
+    if (!arguments.folder.empty()) write_sheets(report, arguments);
   } catch (const Interrupted&) {
     // Half a plan is none.
     fmt::print(stderr, "boresight: interrupted before the plan was complete\n");
@@ -63,12 +84,27 @@ Subcommand add_commission(CLI::App& program) {
                   "loop structure to commission, as for `boresight tune` (default: that of the "
                   "recommended controller)");
   sub->add_option("--gains", options.gains,
-                  "its gains instead of tuned ones, KEY=VALUE each, all of them")
+                  "its gains instead of tuned ones, KEY=VALUE each, all of them; or a file with "
+                  "them: [gains] in TOML, or a report in JSON")
       ->expected(1, 100);
+  sub->add_option("--controller", options.controller_path,
+                  "a state space to commission, from a MAT or JSON file")
+      ->excludes("--gains")
+      ->excludes("--structure");
   sub->add_option("--largest-step", options.largest_step,
                   "largest factor on a gain from one stage to the next")
       ->check(CLI::Range(1.01, 10.0))
       ->capture_default_str();
+  sub->add_option("--folder", arguments->folder,
+                  "folder for sheets to fill in and sign (sheets.html, sheets.csv), the expected "
+                  "Bode plots and the controller of every stage");
+  sub->add_option("--plants", options.plants,
+                  "also try every stage on this many fresh plants of the uncertainty set")
+      ->check(CLI::Range(1, 1000000));
+  sub->add_option("--record", options.records,
+                  "STAGE FILE: judge a record of a stage that is done, and weigh the plants by it; "
+                  "may be repeated")
+      ->type_name("STAGE FILE");
   sub->add_option("--before", options.before, "a record of the case made before the work");
   sub->add_option("--after", options.after, "a record made after it, to compare with --before");
   sub->add_option("--starts", options.starts, "random starts of the tuning")

@@ -11,6 +11,7 @@ namespace boresight::app {
 struct CommissionArguments {
   std::string case_path;
   Outputs outputs;
+  std::string folder;  // for the sheets; empty: none
   CommissionOptions options;
 };
 

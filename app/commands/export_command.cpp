@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -15,6 +14,7 @@
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
+#include <boresight/io/files/output_folder.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -46,13 +46,7 @@ ChosenController controller_of(const io::DesignedAntenna& designed, const io::Ca
 void make_folders(const fs::path& folder, const std::vector<io::CodeFile>& files) {
   for (const auto& file : files) {
     const fs::path path = folder / file.name;
-    std::error_code failure;
-    fs::create_directories(path.parent_path(), failure);
-    if (!fs::is_directory(path.parent_path())) {
-      throw InvalidInput(fmt::format("{}: expected a folder to write to, found none{}",
-                                     path.parent_path().string(),
-                                     failure ? " (" + failure.message() + ")" : ""));
-    }
+    io::output_folder(path.parent_path(), "code");
     io::require_writable(path.string());
   }
 }

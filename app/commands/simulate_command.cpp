@@ -5,7 +5,6 @@
 #include <memory>
 #include <optional>
 #include <set>
-#include <system_error>
 #include <variant>
 #include <vector>
 
@@ -31,6 +30,7 @@
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
+#include <boresight/io/files/output_folder.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/io/records/record_mat_writer.hpp>
 #include <boresight/io/records/simulated_table.hpp>
@@ -41,16 +41,6 @@ namespace boresight::app {
 namespace {
 
 constexpr std::size_t progress_parts = 100;  // percent
-
-std::filesystem::path make_folder(const std::string& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (!std::filesystem::is_directory(folder)) {
-    throw InvalidInput(fmt::format("{}: expected a folder to write records to, found none{}",
-                                   folder, failure ? " (" + failure.message() + ")" : ""));
-  }
-  return folder;
-}
 
 void check_tests(const std::vector<std::string>& tests) {
   const auto& known = design::simulated_test_names();
@@ -95,7 +85,7 @@ class Campaign {
     if (arguments.sample_rate > 0.0 && antenna_.recorder) {
       antenna_.recorder->sample_rate.value = arguments.sample_rate;
     }
-    folder_ = make_folder(arguments.folder);
+    folder_ = io::output_folder(arguments.folder, "records");
     report_.case_path = arguments.case_path;
     report_.title = antenna_.title;
     report_.axis = io::pointing_axis(antenna_);

@@ -2,7 +2,6 @@
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include <boresight/app/commands/subcommand.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/figures/figure_csv.hpp>
+#include <boresight/io/files/output_folder.hpp>
 #include <boresight/io/files/write_atomically.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
@@ -30,16 +30,6 @@ void see_interrupt(int /*signal*/) {
 }
 
 // Made if it is not there, as write_curves would.
-void require_writable_folder(const std::string& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (!std::filesystem::is_directory(folder)) {
-    throw InvalidInput(fmt::format("{}: expected a folder to write curves to, found none{}", folder,
-                                   failure ? " (" + failure.message() + ")" : ""));
-  }
-  io::require_writable((std::filesystem::path(folder) / "curves.csv").string());
-}
-
 }  // namespace
 
 void add_case(CLI::App& command, std::string& path) {
@@ -111,7 +101,9 @@ void Outputs::require_writable() const {
   if (!json_path.empty() && json_path != "-") io::require_writable(json_path);
   if (!report_path.empty()) io::require_writable(report_path);
   if (!mat_path.empty()) io::require_writable(mat_path);
-  if (!curves_folder.empty()) require_writable_folder(curves_folder);
+  if (!curves_folder.empty()) {
+    io::require_writable((io::output_folder(curves_folder, "curves") / "curves.csv").string());
+  }
 }
 
 std::string Outputs::printed(const Document& document) const {

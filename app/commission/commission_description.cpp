@@ -95,9 +95,98 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
         "factor on the loop gain that brings the worst plant to the abort Ms; null if above 8");
     v.text("worst_plant", abort.worst_plant, "the one nearest to the abort peak");
   });
-  v.text("check", sheet.check, "what to measure, and the values to be expected");
-  v.text("abort_text", sheet.abort, "beyond what to go back");
-  v.text("way_back", sheet.way_back, "how");
+  v.list("checks", sheet.checks, "what to measure, in the units of the antenna's computer",
+         [&](const StageCheck& check) {
+           v.text("quantity", to_string(check.quantity), "what it is");
+           v.text("unit", check.unit, "of the numbers beside it");
+           v.number("expected", check.expected, unit::none, "on the nominal plant");
+           v.number("lower", check.lower, unit::none, "the stage passes from here");
+           v.number("upper", check.upper, unit::none, "to here");
+           v.number("abort_above", check.abort_above, unit::none,
+                    "back to the previous stage; null: no limit of its own");
+         });
+  v.text("reserve", sheet.reserve, "what the abort limits leave of the loop gain");
+  v.text("way_back", sheet.way_back, "how to go back");
+}
+
+void describe_trial(io::Visitor& v, const design::StageTrial& trial) {
+  v.count("plants", trial.plants, "fresh ones of the uncertainty set");
+  v.count("stable", trial.stable, "by eigenvalues");
+  v.count("passing", trial.passing, "every check within its bracket");
+  v.count("aborted", trial.aborted, "unstable or beyond an abort limit: a false alarm");
+  v.text_or_null("worst", trial.worst ? to_string(*trial.worst) : std::string_view(),
+                 "the quantity outside its bracket most often");
+  v.count("worst_outside", trial.worst_outside, "plants on which it is");
+}
+
+void describe_fault(io::Visitor& v, const design::FaultTrial& trial) {
+  v.text("fault", trial.fault, "what is wrong with the antenna");
+  v.count("stage", trial.caught ? std::optional(*trial.caught + 1) : std::nullopt,
+                  "number of the first stage that shows it; null: none does");
+  v.flag("stable", trial.caught ? std::optional(trial.judgement.stable) : std::nullopt,
+         "in that stage");
+  v.text_or_null(
+      "quantity", trial.judgement.worst ? to_string(*trial.judgement.worst) : std::string_view(),
+      "that shows it; null: the loop oscillates, or no stage shows it");
+  v.number("value", trial.judgement.worst ? std::optional(trial.measured) : std::nullopt,
+           {.suffix = "SI"}, "of that quantity, at the motor");
+}
+
+void describe_estimate(io::Visitor& v, std::string_view key, const design::PlantEstimate& estimate,
+                       const io::KeyUnit& of, std::string_view meaning) {
+  const io::KeyUnit unnamed = io::without_suffix(of);
+  v.group(io::key_with_unit(key, of), meaning, [&] {
+    v.defined_as("estimate", "Mean and 95 % interval, in the unit of the key that holds it.");
+    v.number("mean", estimate.mean, unnamed, "over the plants");
+    v.number("lower", estimate.lower, unnamed, "2.5 % quantile");
+    v.number("upper", estimate.upper, unnamed, "97.5 % quantile");
+  });
+}
+
+void describe_record(io::Visitor& v, const RecordedStage& record, const PlantUnits& units) {
+  v.count("stage", record.stage + 1, "its number");
+  v.text("file", record.file, "as given");
+  v.list("checks", record.judged, "what was measured, in the units of the antenna's computer",
+         [&](const design::JudgedQuantity& one) {
+           const auto [name, factor] = unit_of(one.measured.quantity, units);
+           const io::KeyUnit as_shown{.multiplier = factor};
+           v.text("quantity", to_string(one.measured.quantity), "what it is");
+           v.text("unit", name, "of the numbers beside it");
+           v.number("measured", one.measured.value, as_shown, "by the record");
+           v.number("uncertainty", one.measured.uncertainty, as_shown, "standard");
+           v.number("lower", one.expected.lower, as_shown, "passes from here");
+           v.number("upper", one.expected.upper, as_shown, "to here");
+           v.number("abort_above", one.abort, as_shown, "null: no limit of its own");
+           v.word("verdict", to_string(one.verdict),
+                  {to_string(design::StageVerdict::passes),
+                   to_string(design::StageVerdict::outside), to_string(design::StageVerdict::abort)},
+                  "of the stage, by this quantity");
+         });
+  v.texts("remarks", record.remarks, "of reading and measuring it");
+}
+
+void describe_update(io::Visitor& v, const design::PlantUpdate& update, const io::KeyUnit& sky) {
+  v.count("plants", update.plants, "of the uncertainty set, weighed by the records");
+  v.number("effective_plants", update.effective, unit::none, "equally likely ones that are left");
+  v.count("quantities", update.quantities, "measured");
+  v.number("mismatch", update.mismatch, unit::none,
+           "chi-squared of the plant that fits best; null: every plant is unstable");
+  v.flag("explained", update.explained, "whether the antenna can be one of the set");
+  v.list("inputs", update.inputs, "the one that the records say most of first",
+         [&](const design::InputUpdate& input) {
+           v.text("input", to_string(input.input), "of the uncertainty set");
+           describe_estimate(v, "before", input.before, unit::none, "the records");
+           describe_estimate(v, "after", input.after, unit::none, "the records");
+         });
+  describe_estimate(v, "final_boresight_rms_before", update.final_rms_before, sky,
+                    "of the last stage in the design wind");
+  describe_estimate(v, "final_boresight_rms_after", update.final_rms_after, sky,
+                    "of the last stage in the design wind");
+  v.list("faults", update.faults, "that fit better than every plant, if it is not explained",
+         [&](const design::FaultFit& fault) {
+           v.text("fault", fault.fault, "what is wrong with the antenna");
+           v.number("mismatch", fault.mismatch, unit::none, "as above");
+         });
 }
 
 void describe_compared(io::Visitor& v, const design::BandComparison& band) {
@@ -194,6 +283,14 @@ void describe(io::Visitor& v, const CommissionReport& report) {
   v.texts("remarks", report.plan.remarks, "what the plan had to do otherwise than asked");
   v.list("stages", report.sheets, "in the order of the work",
          [&](const StageSheet& sheet) { describe_sheet(v, sheet, sky); });
+  v.list("trials", report.trials, "the stages on fresh plants, in the order of the work",
+         [&](const design::StageTrial& trial) { describe_trial(v, trial); });
+  v.list("faults", report.faults, "an antenna with each of them, in the stages",
+         [&](const design::FaultTrial& trial) { describe_fault(v, trial); });
+  v.list("records", report.records, "of stages that are done",
+         [&](const RecordedStage& record) { describe_record(v, record, report.units); });
+  v.optional_group("update", report.update, "the uncertainty set by those records",
+                   [&](const design::PlantUpdate& update) { describe_update(v, update, sky); });
   v.text_or_null("record_before", report.before, "record of the case");
   v.text_or_null("record_after", report.after, "record of the case");
   v.list("comparisons", report.comparisons, "of the two records, a channel each",

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,14 +10,17 @@
 #include <boresight/app/figures/commission_figures.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/structure_option.hpp>
 #include <boresight/design/studies/commission_study.hpp>
 #include <boresight/io/campaign/compared_records.hpp>
 #include <boresight/io/case/case_file.hpp>
+#include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/case_wind.hpp>
 #include <boresight/io/exchange/gains_by_key.hpp>
+#include <boresight/io/records/servo_record_file.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::app {
@@ -23,6 +28,20 @@ namespace {
 
 std::string structure_of_gains(const CommissionOptions& options) {
   return options.structure.empty() ? "DPF" : options.structure;
+}
+
+// What keeps a study from a recommendation, in words.
+std::string why_none(const io::Case& antenna, design::ControllerStudy study) {
+  if (const TunedController* best = recommended_or(study, design::Fitness::lost_in_wind);
+      best != nullptr && best->constraints_met) {
+    return fmt::format(
+        ": the best of them, {}, fails on the nonlinear antenna. Name it with --gains or "
+        "--controller to plan for it all the same",
+        best->structure);
+  }
+  const auto shortfalls = section_of(antenna, std::move(study.tuned)).shortfalls;
+  return shortfalls.empty() ? std::string()
+                            : ": " + shortfalls[0].infeasible + " " + shortfalls[0].closest;
 }
 
 // The recommended controller; its structure and bounds go into the report.
@@ -43,20 +62,92 @@ control::Controller recommended(const io::DesignedAntenna& designed,
   }
   design::ControllerStudy study = study_controllers(designed.mission, designed.ensemble, tuning);
   if (options.interrupted && options.interrupted()) throw Interrupted("interrupted by the user");
-  // One that limit-cycles is planned for with a warning.
   const TunedController* controller = commissionable(study);
   if (controller == nullptr) {
     report.structure = fmt::format("{}", fmt::join(study.tuned.structures, ", "));
-    const auto shortfalls = section_of(designed.antenna, std::move(study.tuned)).shortfalls;
     throw InfeasibleRequirement(fmt::format(
-        "commission: no controller of {} meets its constraints on every ensemble member{}",
-        report.structure,
-        shortfalls.empty() ? std::string()
-                           : ": " + shortfalls[0].infeasible + " " + shortfalls[0].closest));
+        "commission: no controller of {} is recommended that meets its constraints on every "
+        "ensemble member{}",
+        report.structure, why_none(designed.antenna, std::move(study))));
   }
   report.structure = controller->structure;
   report.bounds = about_bounds(study.tuned, io::GainUnits(designed.antenna), {controller});
   return controller->design.tuning.controller;
+}
+
+bool names_file(const CommissionOptions& options) {
+  return !options.controller_path.empty() ||
+         (options.gains.size() == 1 && options.gains.front().find('=') == std::string::npos);
+}
+
+control::Controller target_of(const io::DesignedAntenna& designed, const CommissionOptions& options,
+                              CommissionReport& report) {
+  if (report.tuned) return recommended(designed, options, report);
+  if (!names_file(options)) {
+    return io::controller_by_key(designed.antenna, report.structure, options.gains);
+  }
+  ControllerOptions named;
+  named.structure = options.structure;
+  named.controller_path = options.controller_path;
+  if (!options.gains.empty()) named.gains = options.gains.front();
+  ChosenController chosen = named_controller(designed.antenna, named).value();
+  report.structure = chosen.structure;
+  return std::move(chosen.controller);
+}
+
+design::TrialOptions trial_options(const CommissionOptions& options, const CommissionReport& report,
+                                   std::string_view work) {
+  design::TrialOptions trial;
+  trial.seed = options.seed;
+  trial.threads = options.threads;
+  trial.rms_allowance = report.options.rms_allowance;
+  trial.stop = options.interrupted;
+  if (options.progress) {
+    trial.progress = [progress = options.progress, work](std::size_t done, std::size_t all) {
+      progress(work, done, all);
+    };
+  }
+  return trial;
+}
+
+// Before the work: a misspelt name must not cost a tuning.
+std::vector<RecordedStage> read_records(const io::Case& antenna, const CommissionOptions& options,
+                                        std::vector<identification::ServoRecord>& records) {
+  std::vector<RecordedStage> stages;
+  for (const auto& [number, file] : options.records) {
+    if (number < 1) throw InvalidInput("--record: expected the number of a stage, from 1, found 0");
+    io::ServoRecordNotes notes;
+    records.push_back(io::read_servo_record(antenna, file, notes));
+    stages.push_back({number - 1, file, {}, {}, notes.remarks});
+  }
+  return stages;
+}
+
+void judge_records(const io::DesignedAntenna& designed, const CommissionOptions& options,
+                   const std::vector<design::AntennaFault>& faults,
+                   const std::vector<identification::ServoRecord>& records,
+                   CommissionReport& report) {
+  // Plants of which as many as they say are left after a few stages.
+  constexpr std::size_t weighed = 400;
+  std::vector<design::MeasuredStage> measured;
+  std::size_t quantities = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    RecordedStage& record = report.records[i];
+    if (record.stage >= report.plan.stages.size()) {
+      throw InvalidInput(fmt::format("--record: expected a stage of the plan, 1 to {}, found {}",
+                                     report.plan.stages.size(), record.stage + 1));
+    }
+    const auto& stage = report.plan.stages[record.stage];
+    record.measurement = measure_stage(records[i], stage, report.gear_ratio);
+    record.judged = judge(record.measurement, stage, report.options.rms_allowance);
+    std::ranges::copy(record.measurement.remarks, std::back_inserter(record.remarks));
+    quantities += record.measurement.quantities.size();
+    measured.push_back({record.stage, record.measurement});
+  }
+  if (quantities == 0) return;
+  report.update =
+      updated_plants(designed.mission, designed.distribution, report.plan, report.move, measured,
+                     faults, weighed, trial_options(options, report, "weighing plants"));
 }
 
 }  // namespace
@@ -75,7 +166,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   report.title = antenna.title;
   report.axis = io::pointing_axis(antenna);
   report.seed = options.seed;
-  report.tuned = options.gains.empty();
+  report.tuned = options.gains.empty() && options.controller_path.empty();
   report.structure = report.tuned ? options.structure : structure_of_gains(options);
   report.ensemble_source = to_string(ensemble.source);
   report.ensemble_size = ensemble.members.size();
@@ -94,6 +185,9 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
     };
   }
   report.move = design::commissioning_move(designed.mission);
+  report.units = plant_units(antenna, designed.mission);
+  std::vector<identification::ServoRecord> records;
+  report.records = read_records(antenna, options, records);
   if (!options.structure.empty()) io::check_structure(antenna, options.structure);
   if (!options.before.empty()) {
     for (auto& compared :
@@ -108,9 +202,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
     report.no_plan = error.what();
   };
   try {
-    const control::Controller target =
-        report.tuned ? recommended(designed, options, report)
-                     : io::controller_by_key(antenna, report.structure, options.gains);
+    const control::Controller target = target_of(designed, options, report);
     const design::CommissionStudy study =
         study_commission(designed.mission, ensemble, target, report.options, options.seed);
     report.plan = study.plan;
@@ -119,6 +211,16 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
       channel.predicted = predicted_ratio(report.plan, channel.quantity);
     }
     report.sheets = make_sheets(antenna, report, study.steps);
+    const auto faults = design::usual_faults(static_cast<double>(antenna.motor->count),
+                                             target.structure.feeds_torque_back());
+    report.faults = try_faults(designed.mission, report.plan, report.move, faults,
+                               trial_options(options, report, "trying faults"));
+    if (options.plants > 0) {
+      report.trials =
+          try_stages(designed.mission, designed.distribution, report.plan, report.move,
+                     options.plants, trial_options(options, report, "trying fresh plants"));
+    }
+    judge_records(designed, options, faults, records, report);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);
   } catch (const NumericalFailure& error) {

@@ -6,12 +6,17 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <boresight/app/commission/stage_checks.hpp>
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
+#include <boresight/design/commissioning/commissioning_trials.hpp>
 #include <boresight/design/commissioning/drive_record_comparison.hpp>
+#include <boresight/design/commissioning/plant_update.hpp>
+#include <boresight/design/commissioning/stage_record.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 
@@ -25,12 +30,17 @@ namespace boresight::app {
 struct CommissionOptions {
   /// Empty: of the controller that study_controllers recommends; DPF of gains given.
   std::string structure;
-  /// Gains of the controller, KEY=VALUE as in [gains]; empty: tuned.
+  /// Gains of the controller, KEY=VALUE as in [gains], or one path of a file with gains; empty:
+  /// tuned.
   std::vector<std::string> gains;
+  std::string controller_path;  // of a state space instead of gains; empty: none
   double largest_step = 2.0;  // factor on a gain from stage to stage
   int starts = 0;             // of the tuning; 0: as the case has it
   std::uint64_t seed = 1;
   unsigned threads = 1;
+  std::size_t plants = 0;       // fresh ones to try the stages on; 0: none
+  /// Stages that are done, by their number from 1, and the file of the record of each.
+  std::vector<std::pair<std::size_t, std::string>> records;
   /// Names of records of the case, both or none.
   std::string before, after;
   std::function<bool()> interrupted;
@@ -49,11 +59,20 @@ struct StageGain {
 /// One stage as an engineer reads it.
 struct StageSheet {
   design::CommissioningStage stage;
-  std::vector<StageGain> gains;  // those that act
-  double step = 0.0;     // of the command to make: rad/s or rad at the sky, within saturation
-  std::string check;     // what to measure, and the values to be expected
-  std::string abort;     // beyond what to go back
-  std::string way_back;  // how
+  std::vector<StageGain> gains;     // those that act
+  double step = 0.0;                // of the command to make: rad/s or rad at the sky, within saturation
+  std::vector<StageCheck> checks;   // what to measure
+  std::string reserve;              // what the abort limits leave of the loop gain
+  std::string way_back;             // beyond an abort limit
+};
+
+/// The record of a stage that is done.
+struct RecordedStage {
+  std::size_t stage = 0;  // index of the sheets
+  std::string file;
+  design::StageMeasurement measurement;
+  std::vector<design::JudgedQuantity> judged;
+  std::vector<std::string> remarks;  // of reading and measuring it
 };
 
 /// One quantity of two records of the case.
@@ -83,6 +102,11 @@ struct CommissionReport {
   /// Remarks on the gains of a tuned controller that lie at a bound of their search range.
   std::vector<std::string> bounds;
   std::vector<StageSheet> sheets;
+  PlantUnits units;
+  std::vector<design::StageTrial> trials;  // on fresh plants, one a stage; empty: not asked for
+  std::vector<design::FaultTrial> faults;
+  std::vector<RecordedStage> records;
+  std::optional<design::PlantUpdate> update;  // by the records; none: nothing was measured
   std::string before, after;
   std::vector<ChannelComparison> comparisons;
   std::vector<std::string> conclusions;
@@ -90,11 +114,13 @@ struct CommissionReport {
   std::vector<Figure> figures;
 };
 
-/// Plans the path to the recommended controller (study_controllers), or to the given gains.
-/// Compares two records where requested.
-/// @throws InvalidInput for an unknown structure, unknown gains or missing records; Interrupted.
-/// InfeasibleRequirement if no controller of the structure meets the constraints on every plant, or
-/// no path to it was found. NumericalFailure. With compared records, the report holds the last two
+/// Plans the path to the recommended controller (study_controllers), or to the given one. Tries
+/// the stages on fresh plants and on antennas with usual_faults, judges records of stages that are
+/// done, and compares two records, where requested.
+/// @throws InvalidInput for an unknown structure, unknown gains, missing records or a record of a
+/// stage that the plan does not have; Interrupted.
+/// InfeasibleRequirement if no controller of the structure is recommended and meets the constraints
+/// on every plant, or no path to it was found. NumericalFailure. With compared records, the report holds the last two
 /// errors instead.
 CommissionReport plan_commission(const io::DesignedAntenna& designed,
                                  const CommissionOptions& options);

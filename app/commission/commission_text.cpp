@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <boresight/app/commission/commission_findings.hpp>
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/axis_wording.hpp>
@@ -19,12 +20,6 @@ using Rows = std::vector<std::vector<std::string>>;
 
 std::string number(double value, const char* form) {
   return std::isfinite(value) ? fmt::format(fmt::runtime(form), value) : "-";
-}
-
-std::string stage_name(const design::CommissioningStage& stage) {
-  const auto kind = to_string(stage.kind);
-  return stage.steps == 1 ? std::string(kind)
-                          : fmt::format("{}, {} of {}", kind, stage.step, stage.steps);
 }
 
 Document overview(const CommissionReport& report) {
@@ -81,8 +76,17 @@ Document sheets(const CommissionReport& report) {
       gains.push_back(gain_text(gain) + (gain.changed ? " *" : ""));
     }
     text += wrapped(fmt::format("gains  {}", fmt::join(gains, "; ")), "    ", "       ");
-    text += wrapped("check  " + sheet.check, "    ", "       ");
-    text += wrapped("abort  " + sheet.abort, "    ", "       ");
+    if (!sheet.checks.empty()) {
+      Rows rows{{command_in_words(report, sheet), "unit", "expected", "from", "to", "abort above"}};
+      for (const auto& check : sheet.checks) {
+        rows.push_back({std::string(to_string(check.quantity)), check.unit,
+                        checked_number(check.expected), checked_number(check.lower),
+                        checked_number(check.upper),
+                        check.abort_above ? checked_number(*check.abort_above) : "-"});
+      }
+      text += table(rows, "ll");
+    }
+    text += wrapped(sheet.reserve, "    ", "       ");
     text += wrapped("back   " + sheet.way_back, "    ", "       ");
   }
   return text;
@@ -164,18 +168,19 @@ Document plan_part(const CommissionReport& report) {
       "  ");
   text += essential(wrapped(
       fmt::format(
-          "A stage passes when every value lies within its brackets, an rms within {:g} times "
-          "them. Go back when one exceeds its abort limit: for an overshoot {:.0f} % of the step "
-          "above the brackets, for an rms {:g} times the brackets, or less where the worst plant's "
-          "Ms would be {:g}. Between the two, find the cause first.",
+          "A stage passes when every value lies within its brackets, which for an rms are {:g} times "
+          "wider than over the plants. Go back when one exceeds its abort limit: for an overshoot {:.0f} % of the step "
+          "above the brackets, for an rms at their end, or less where the worst plant's Ms would "
+          "be {:g}, or on any ringing that does not decay. Between the two, find the cause first.",
           report.options.rms_allowance, 100.0 * report.options.overshoot_allowance,
-          report.options.rms_allowance, report.options.abort_peak),
+          report.options.abort_peak),
       "  "));
   text += "\n" + essential(overview(report));
   text += essential("\n" + gains_to_set(report) +
                     wrapped("What to check at each stage, when to abort and the way back: section "
                             "Stages (--details).",
                             "  "));
+  text += trials_part(report);
   text += heading("Stages (* changed from the previous stage)") + sheets(report);
   return text;
 }
@@ -189,6 +194,7 @@ Document document_of(const CommissionReport& report) {
   text += heading("Commissioning plan for " + report.structure);
   text += report.failure == nullptr ? plan_part(report)
                                     : essential(wrapped("None: " + report.no_plan, "  "));
+  text += records_part(report);
   text += comparison_part(report);
   text += heading("Conclusions");
   for (const auto& sentence : report.conclusions) text += wrapped("- " + sentence, "  ", "  ");

@@ -1,9 +1,12 @@
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <boresight/app/commission/commission_findings.hpp>
 #include <boresight/app/commission/commission_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/design/studies/commission_study.hpp>
@@ -22,62 +25,16 @@ std::string range(const PlantBand& band, double unit, int digits) {
                      digits, band.upper / unit, digits);
 }
 
-std::string percent(const PlantBand& band) {
-  return fmt::format("{:.1f} ({:.1f} to {:.1f}) %", 100.0 * band.nominal, 100.0 * band.lower,
-                     100.0 * band.upper);
-}
-
-std::string settling(const PlantBand& band) {
-  return std::isfinite(band.upper) ? "settles into 5 % in " + range(band, 1.0, 3) + " s"
-                                   : "settles slowly";
-}
-
-void describe_check(const io::Case& antenna, StageSheet& sheet) {
-  const auto& expected = sheet.stage.expected;
-  const double gear = io::gear_ratio(antenna);
-  const double sky = gear * millidegree;
-  if (!sheet.stage.expected.all_stable()) {
-    sheet.check = fmt::format("Nothing: {} of {} plants are unstable.",
-                              expected.plants - expected.stable, expected.plants);
-    return;
-  }
-  const bool open = sheet.stage.controller.position_open;
-  if (sheet.stage.kind == StageKind::feedforward) {
-    sheet.check = "Largest encoder error of the move: " + range(expected.move_error, sky, 3) +
-                  " mdeg. The step as in the stage before. ";
-  } else {
-    sheet.check = fmt::format(
-        "Step of the {} command of {:.3g} mdeg{} at the sky: rises (10 % to 90 %) in {} s, "
-        "overshoots by {}, {}. ",
-        open ? "rate" : "position", sheet.step / millidegree, open ? "/s" : "",
-        range(expected.rise_time, 1.0, 3), percent(expected.overshoot),
-        settling(expected.settling_time));
-  }
-  sheet.check += fmt::format("Crossover {} Hz. ", range(expected.crossover, two_pi, 3));
-  sheet.check +=
-      "In still air, rms of the valve command " + range(expected.calm_valve, 1.0, 3) + " rad/s";
-  sheet.check += open ? ", of the tachometer " + range(expected.calm_tachometer, 1.0, 3) + " rad/s."
-                      : ", of the encoder error " + range(expected.calm_encoder, sky, 3) +
-                            " mdeg. Boresight rms in the design wind " +
-                            range(expected.boresight_rms, sky, 3) + " mdeg.";
-}
-
-void describe_abort(const io::Case& antenna, StageSheet& sheet, const CommissionReport& report) {
+void describe_reserve(const CommissionReport& report, StageSheet& sheet) {
   const auto& abort = sheet.stage.abort;
   if (!sheet.stage.expected.all_stable()) {
-    sheet.abort =
-        "Unknown: the plants are unstable with these gains, but the antenna runs on them.";
+    sheet.reserve = fmt::format(
+        "{} of {} plants are unstable with these gains, but the antenna runs on them: nothing is "
+        "predicted.",
+        sheet.stage.expected.plants - sheet.stage.expected.stable, sheet.stage.expected.plants);
     return;
   }
-  sheet.abort = fmt::format(
-      "Overshoot above {:.0f} %, or in still air rms of the valve command above {:.3g} rad/s",
-      100.0 * abort.overshoot, abort.calm_valve_rms);
-  if (!sheet.stage.controller.position_open) {
-    sheet.abort += fmt::format(" or of the encoder error above {:.3g} mdeg",
-                               abort.calm_encoder_rms / (io::gear_ratio(antenna) * millidegree));
-  }
-  sheet.abort += ", or any ringing that does not decay. ";
-  sheet.abort +=
+  sheet.reserve =
       std::isfinite(abort.gain_reserve)
           ? fmt::format("Ms reaches {:g} on the worst plant ({}) at {:.2f} times this loop gain.",
                         report.options.abort_peak, abort.worst_plant, abort.gain_reserve)
@@ -187,8 +144,8 @@ std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionRep
     sheet.gains = stage_gains(units, sheet.stage.controller,
                               before != nullptr ? &before->stage.controller : nullptr);
     sheet.step = steps[i];
-    describe_check(antenna, sheet);
-    describe_abort(antenna, sheet, report);
+    sheet.checks = stage_checks(sheet.stage, report.units, report.options.rms_allowance);
+    describe_reserve(report, sheet);
     describe_way_back(before, sheet);
     sheets.push_back(std::move(sheet));
   }
@@ -198,7 +155,9 @@ std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionRep
 std::vector<std::string> conclude(const CommissionReport& report, const io::Case& antenna) {
   std::vector<std::string> sentences;
   if (report.failure == nullptr) {
+    sentences = about_records(report);
     conclude_plan(report, antenna, sentences);
+    std::ranges::move(about_trials(report), std::back_inserter(sentences));
   } else {
     sentences.push_back(
         fmt::format("There is no plan for {}: {}", report.structure, report.no_plan));

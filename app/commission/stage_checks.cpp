@@ -69,8 +69,10 @@ std::vector<StageCheck> stage_checks(const design::CommissioningStage& stage,
 std::string checked_number(double value) {
   if (!std::isfinite(value)) return "-";
   const double size = std::abs(value);
+  // What is next to nothing has no digits of its own.
+  constexpr double least = 1e-4;
   const int decimals =
-      size > 0.0 ? std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6) : 0;
+      size >= least ? std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6) : 0;
   return fmt::format("{:.{}f}", value, decimals);
 }
 

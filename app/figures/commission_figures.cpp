@@ -9,6 +9,7 @@
 #include <boresight/app/figures/figure_id.hpp>
 #include <boresight/app/figures/figure_parts.hpp>
 #include <boresight/app/report/sky_units.hpp>
+#include <boresight/numerics/angles.hpp>
 
 namespace boresight::app {
 namespace {
@@ -201,10 +202,46 @@ std::vector<Figure> comparisons(const CommissionReport& report) {
 
 }  // namespace
 
+std::optional<Figure> stage_bode_figure(const CommissionReport& report, std::size_t stage,
+                                        const std::string& section) {
+  const StageSheet& sheet = report.sheets[stage];
+  const design::StageBode& bode = sheet.stage.bode;
+  if (bode.frequency.empty()) return std::nullopt;
+  Figure figure = make_figure(
+      fmt::format("commission-bode-{}", stage + 1), section,
+      fmt::format("Expected Bode plot, stage {}", stage + 1),
+      fmt::format("{} over its command, closed loop: nominal plant with {:g} % prediction interval "
+                  "over the plants, linear, without feedforward.",
+                  sheet.stage.controller.position_open ? "Tachometer" : "Encoder",
+                  100.0 * report.options.confidence),
+      make_axis("frequency", "Hz", AxisScale::logarithmic));
+  const auto panel = [&](FigureAxis axis, const std::vector<design::PlantBand>& bands,
+                         const auto& in_unit) {
+    FigureSeries series = make_series("expected, band over the plants", SeriesStyle::line);
+    for (std::size_t k = 0; k < bands.size(); ++k) {
+      series.x.push_back(bode.frequency[k] / two_pi);
+      series.y.push_back(in_unit(bands[k].nominal));
+      series.y_lower.push_back(in_unit(bands[k].lower));
+      series.y_upper.push_back(in_unit(bands[k].upper));
+    }
+    return make_panel(std::move(axis), {std::move(series)});
+  };
+  figure.panels.push_back(panel(make_axis("gain", "dB"), bode.gain,
+                                [](double gain) { return 20.0 * std::log10(gain); }));
+  figure.panels.push_back(panel(make_axis("phase", "deg"), bode.phase,
+                                [](double phase) { return phase / degree; }));
+  return figure;
+}
+
 std::vector<Figure> commission_figures(const CommissionReport& report) {
   std::vector<Figure> figures;
   if (!report.sheets.empty()) figures = {margins(report), gains(report), responses(report)};
   std::erase_if(figures, [](const Figure& figure) { return figure.panels.empty(); });
+  for (std::size_t i = 0; i < report.sheets.size(); ++i) {
+    if (auto figure = stage_bode_figure(report, i, stages_heading)) {
+      figures.push_back(*std::move(figure));
+    }
+  }
   for (auto& figure : comparisons(report)) figures.push_back(std::move(figure));
   return figures;
 }

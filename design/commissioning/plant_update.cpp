@@ -17,6 +17,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t fewest_plants = 20;
 constexpr std::size_t plants_together = 50;
+// Effective plants that make intervals of their own, and how many times the plants asked for may be
+// drawn for them.
+constexpr double enough = 40.0;
+constexpr std::size_t most_times = 16;
 constexpr double tail = 0.025;
 constexpr double certainty = 0.99;
 
@@ -93,8 +97,13 @@ std::size_t quantities_of(const std::vector<MeasuredStage>& records) {
   return quantities;
 }
 
-// Of the likelihoods, that of the best plant being 1.
-std::vector<double> weights_of(const std::vector<Drawn>& drawn, double least) {
+double least_mismatch(const std::vector<Drawn>& drawn) {
+  return std::ranges::min(drawn, {}, &Drawn::mismatch).mismatch;
+}
+
+// The likelihoods, which sum to 1. At least one mismatch is finite.
+std::vector<double> weights_of(const std::vector<Drawn>& drawn) {
+  const double least = least_mismatch(drawn);
   std::vector<double> weights;
   double sum = 0.0;
   for (const Drawn& one : drawn) {
@@ -103,6 +112,13 @@ std::vector<double> weights_of(const std::vector<Drawn>& drawn, double least) {
   }
   for (double& weight : weights) weight /= sum;
   return weights;
+}
+
+double effective_number(const std::vector<Drawn>& drawn) {
+  if (!std::isfinite(least_mismatch(drawn))) return 0.0;
+  double square = 0.0;
+  for (const double weight : weights_of(drawn)) square += weight * weight;
+  return 1.0 / square;
 }
 
 void add_inputs(const PlantDistribution& distribution, const std::vector<Drawn>& drawn,
@@ -119,10 +135,10 @@ void add_inputs(const PlantDistribution& distribution, const std::vector<Drawn>&
 }  // namespace
 
 double comparison_deviation(const MeasuredQuantity& measured) {
-  constexpr double of_time = 0.03, of_overshoot = 0.02, of_rms = 0.1;
+  constexpr double of_time = 0.03, of_rms = 0.1;
   double model = of_rms * measured.value;
   if (measured.quantity == StageQuantity::overshoot) {
-    model = of_overshoot;
+    model = overshoot_resolution;
   } else if (measured.quantity == StageQuantity::rise_time ||
              measured.quantity == StageQuantity::settling_time) {
     model = of_time * measured.value;
@@ -136,33 +152,39 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
                            const std::vector<AntennaFault>& faults, std::size_t count,
                            const TrialOptions& options) {
   PlantUpdate update;
-  update.plants = count;
   update.quantities = quantities_of(records);
   check(plan, records, update.quantities, count);
   const TrackingProblem problem = tracking_problem(mission);
   const WindTable wind(problem);
-  std::vector<Drawn> drawn(count);
-  for (std::size_t first = 0; first < count; first += plants_together) {
-    if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
-    const std::size_t together = std::min(plants_together, count - first);
-    numerics::for_each_index(together, options.threads, [&](std::size_t i) {
-      Drawn& one = drawn[first + i];
-      one.sample = distribution.draw(options.seed, first + i);
-      StageObserver observer(
-          problem, plant::linear_plant(plant::changed(mission.antenna, changes_of(one.sample))),
-          wind, move);
-      one.mismatch = mismatch_of(observer, plan, records);
-      one.final_rms = observer.observe(plan.stages.back().controller).boresight_rms;
-    });
-    if (options.progress) options.progress(first + together, count);
+  std::vector<Drawn> drawn;
+  const auto draw_more = [&](std::size_t more) {
+    const std::size_t before = drawn.size();
+    drawn.resize(before + more);
+    for (std::size_t first = before; first < drawn.size(); first += plants_together) {
+      if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
+      const std::size_t together = std::min(plants_together, drawn.size() - first);
+      numerics::for_each_index(together, options.threads, [&](std::size_t i) {
+        Drawn& one = drawn[first + i];
+        one.sample = distribution.draw(options.seed, first + i);
+        StageObserver observer(
+            problem, plant::linear_plant(plant::changed(mission.antenna, changes_of(one.sample))),
+            wind, move);
+        one.mismatch = mismatch_of(observer, plan, records);
+        one.final_rms = observer.observe(plan.stages.back().controller).boresight_rms;
+        // One that is unstable at the end has no rms: it cannot be left.
+        if (std::isfinite(one.final_rms)) return;
+        one.mismatch = infinity;
+        one.final_rms = 0.0;
+      });
+      if (options.progress) options.progress(first + together, drawn.size());
+    }
+  };
+  draw_more(count);
+  while (effective_number(drawn) < enough && drawn.size() < most_times * count) {
+    draw_more(drawn.size());
   }
-  // A plant that is unstable at the end has no rms: not one to be left.
-  for (Drawn& one : drawn) {
-    if (std::isfinite(one.final_rms)) continue;
-    one.mismatch = infinity;
-    one.final_rms = 0.0;
-  }
-  update.mismatch = std::ranges::min(drawn, {}, &Drawn::mismatch).mismatch;
+  update.plants = drawn.size();
+  update.mismatch = least_mismatch(drawn);
   update.explained =
       update.mismatch <=
       numerics::chi_squared_quantile(certainty, static_cast<double>(update.quantities));
@@ -180,11 +202,9 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
     std::ranges::stable_sort(update.faults, {}, &FaultFit::mismatch);
   }
   if (!std::isfinite(update.mismatch)) return update;
-  const std::vector<double> even(count, 1.0 / static_cast<double>(count));
-  const std::vector<double> weights = weights_of(drawn, update.mismatch);
-  double square = 0.0;
-  for (const double weight : weights) square += weight * weight;
-  update.effective = 1.0 / square;
+  const std::vector<double> even(drawn.size(), 1.0 / static_cast<double>(drawn.size()));
+  const std::vector<double> weights = weights_of(drawn);
+  update.effective = effective_number(drawn);
   add_inputs(distribution, drawn, even, weights, update);
   std::vector<double> rms;
   for (const Drawn& one : drawn) rms.push_back(one.final_rms);

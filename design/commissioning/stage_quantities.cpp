@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -95,6 +96,9 @@ std::optional<double> abort_limit(StageQuantity quantity, const CommissioningSta
 PassInterval pass_interval(StageQuantity quantity, const CommissioningStage& stage,
                            double rms_allowance) {
   const PlantBand& band = expected_of(quantity, stage.expected);
+  if (quantity == StageQuantity::overshoot) {
+    return {std::max(0.0, band.lower - overshoot_resolution), band.upper + overshoot_resolution};
+  }
   const double allowance = is_rms(quantity) ? rms_allowance : 1.0;
   return {band.lower / allowance, band.upper * allowance};
 }

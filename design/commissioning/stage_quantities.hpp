@@ -31,8 +31,12 @@ const PlantBand& expected_of(StageQuantity quantity, const StageExpectation& exp
 /// None where the quantity has no limit of its own.
 std::optional<double> abort_limit(StageQuantity quantity, const CommissioningStage& stage);
 
+/// What a step's overshoot can be read to, a fraction of the step.
+inline constexpr double overshoot_resolution = 0.02;
+
 /// The interval in which a measured value passes: the band over the plants; of an rms, whose sensor
-/// noise is known less well, `rms_allowance` times wider on both sides.
+/// noise is known less well, `rms_allowance` times wider on both sides; of an overshoot wider by
+/// overshoot_resolution.
 struct PassInterval {
   double lower = 0.0, upper = 0.0;
 };

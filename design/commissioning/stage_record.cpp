@@ -23,7 +23,10 @@ constexpr double settled = 0.05;
 constexpr double step_part = 0.5;
 // A change so many times the median change is a step, not a motion.
 constexpr double step_over_motion = 20.0;
-constexpr double smoothing_of_rise = 1.0 / 15.0;
+// What the response is smoothed over, in rise times: for its largest value, and for settling, which
+// one noisy sample would delay.
+constexpr double smoothing = 1.0 / 15.0;
+constexpr double smoothing_for_settling = 0.5;
 
 struct Line {
   double start = 0.0, slope = 0.0;
@@ -139,15 +142,18 @@ struct StepFigures {
 StepFigures figures_of(const VectorXd& response, double sample_time) {
   StepFigures figures;
   const auto rough = rise_time(response, sample_time);
-  const auto reach =
-      rough ? static_cast<Index>(0.5 * smoothing_of_rise * *rough / sample_time) : Index{0};
-  const VectorXd smooth = smoothed(response, reach);
+  const auto smooth_over = [&](double rise_times) {
+    return smoothed(response, rough ? static_cast<Index>(0.5 * rise_times * *rough / sample_time)
+                                    : Index{0});
+  };
+  const VectorXd smooth = smooth_over(smoothing);
   figures.rise = rise_time(smooth, sample_time);
   figures.overshoot = std::max(0.0, smooth.maxCoeff() - 1.0);
-  Index last = smooth.size() - 1;
-  while (last >= 0 && std::abs(smooth[last] - 1.0) <= settled) --last;
+  const VectorXd slow = smooth_over(smoothing_for_settling);
+  Index last = slow.size() - 1;
+  while (last >= 0 && std::abs(slow[last] - 1.0) <= settled) --last;
   // Settled for the last tenth of the step at least, else it may leave again.
-  if (last + 1 < smooth.size() - smooth.size() / 10) {
+  if (last + 1 < slow.size() - slow.size() / 10) {
     figures.settling = sample_time * static_cast<double>(last + 1);
   }
   return figures;

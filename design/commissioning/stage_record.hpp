@@ -31,8 +31,8 @@ struct StageMeasurement {
 /// and encoder with it closed) gives rise time, overshoot and settling time. The step may start
 /// from a steady motion: a straight line through what is before it, up to the step's own length, is
 /// taken off command and response. The responses, over their steps, are averaged, and smoothed over
-/// a fifteenth of the rise time, as the largest value of a noisy one is too large. A step lasts to
-/// the next; settling that takes longer is not measured. The uncertainty is that of the mean of the
+/// a fifteenth of the rise time, as the largest value of a noisy one is too large; for settling over
+/// half of it. A step lasts to the next; settling that takes longer is not measured. The uncertainty is that of the mean of the
 /// single steps, or, of one step, that of the noise before it.
 /// A command that does not step, or none, gives the rms in still air: of valve command, of
 /// tachometer or encoder error, about a straight line. Its uncertainty is that of correlated

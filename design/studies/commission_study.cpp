@@ -82,7 +82,7 @@ std::vector<ActingGain> acting_gains(const StageController& stage, const StageCo
 }
 
 const TunedController* commissionable(const ControllerStudy& study) {
-  const TunedController* controller = recommended_or(study, Fitness::lost_in_wind);
+  const TunedController* controller = recommended_or(study, Fitness::misses_budget);
   return controller != nullptr && controller->tuned_for == TunedFor::robust &&
                  controller->constraints_met
              ? controller

@@ -27,8 +27,8 @@ struct CommissionStudy {
   std::optional<double> limit_cycle;
 };
 
-/// The controller of a study that commissioning stages can lead to: the recommended one, accepting
-/// at worst a loss in wind. It must be tuned to meet every constraint on every ensemble member.
+/// The controller of a study that commissioning stages can lead to: the recommended one, which may
+/// miss a budget but no more. It must be tuned to meet every constraint on every ensemble member.
 /// Null if there is none.
 const TunedController* commissionable(const ControllerStudy& study);
 

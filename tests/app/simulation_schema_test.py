@@ -31,14 +31,16 @@ def refuse_constant(name):
 
 
 @functools.lru_cache(maxsize=None)
-def run(*tests, old="", new=""):
-    """Exit code, report, text, errors and the records' lines of a run on an edited case."""
+def run(*tests, old="", new="", gains=""):
+    """Exit code, report, text, errors and the records' lines of a run on an edited case; with gains,
+    a table of the case, on those instead of the recommended controller."""
     assert old in CASE
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "case.toml").write_text(CASE.replace(old, new, 1), encoding="utf-8")
+        (folder / "case.toml").write_text(CASE.replace(old, new, 1) + gains, encoding="utf-8")
         process = subprocess.run(
-            [PROGRAM, "simulate", "case.toml", *tests, "--folder", "out", "--json", "report.json"],
+            [PROGRAM, "simulate", "case.toml", *tests, "--folder", "out", "--json", "report.json",
+             *(("--gains", "case") if gains else ())],
             cwd=folder, capture_output=True, text=True, check=False)
         report = json.loads((folder / "report.json").read_text(), parse_constant=refuse_constant)
         records = {path: (folder / path).read_text().splitlines() for path in report["records"]}
@@ -138,7 +140,9 @@ class Simulation(unittest.TestCase):
     def test_a_failure_leaves_the_report_of_what_was_done(self):
         code, report, text, errors, records = run(
             "slosh", "tracking", "slew", old='design_speed = { value = "10 m/s"',
-            new='design_speed = { value = "60 m/s"')  # more torque than the supply's
+            new='design_speed = { value = "60 m/s"',  # more torque than the supply's
+            gains='\n[gains]\nstructure = "PI"\nkr = 0.043\nwi = "0.3 rad/s"\nwp = "2.5 rad/s"\n'
+                  'kp = "30 1/s"\nwip = "0.2 rad/s"\n')
         self.assertEqual(code, 4)
         self.assertEqual(list(records), ["out/slosh.csv"])
         self.assertEqual([r["test"] for r in report["drive_tests"]], ["slosh"])

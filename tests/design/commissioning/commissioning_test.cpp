@@ -119,24 +119,6 @@ TEST(StageObserver, HasNothingToSayOfAPositionLoopThatIsOpen) {
   EXPECT_THROW(StageObserver(problem, problem.plant, WindTable(problem), {0.0, 1.0}), InvalidInput);
 }
 
-TEST(PlantBand, IsStudentsIntervalForOneMorePlant) {
-  // Normal numbers are asked for what they are, positive ones for their logarithms.
-  const auto linear = plant_band(0.5, {-1.0, 0.0, 1.0, 2.0}, 0.5);
-  EXPECT_EQ(linear.lower, 0.0);
-  EXPECT_EQ(linear.upper, 2.0);  // 0.5 + 0.765 sqrt(5/3 5/4) is within the plants' own
-  EXPECT_EQ(linear.minimum, -1.0);
-  const double e = std::exp(1.0);
-  const auto logarithmic = plant_band(1.0, {1.0, e, e * e}, 0.99);
-  // t of 2 degrees at 99.5 %: 9.924843; mean 1, deviation 1.
-  EXPECT_NEAR(std::log(logarithmic.upper), 1.0 + 9.924843 * std::sqrt(4.0 / 3.0), 1e-5);
-  EXPECT_NEAR(std::log(logarithmic.lower), 1.0 - 9.924843 * std::sqrt(4.0 / 3.0), 1e-5);
-  EXPECT_EQ(logarithmic.nominal, 1.0);
-  const auto none = plant_band(1.0, {1.0, 2.0, std::numeric_limits<double>::infinity()}, 0.9);
-  EXPECT_TRUE(std::isnan(none.upper));
-  EXPECT_THROW(plant_band(1.0, {1.0, 2.0}, 0.9), InvalidInput);
-  EXPECT_THROW(plant_band(1.0, {1.0, 2.0, 3.0}, 99.0), InvalidInput);
-}
-
 TEST(CommissioningPath, PutsWhatIsNotThereWhereItDoesNothing) {
   const Controller pi{LoopStructure::named("PI-0"), {0.2, 1.0, 0.3, 0.05}};
   const auto within = controller_within(pi, compliance_law());

@@ -1,0 +1,215 @@
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <boresight/app/commission/commission_findings.hpp>
+#include <boresight/app/report/sky_units.hpp>
+
+namespace boresight::app {
+namespace {
+
+using design::StageVerdict;
+using Rows = std::vector<std::vector<std::string>>;
+
+double percentage(std::size_t part, std::size_t all) {
+  return 100.0 * static_cast<double>(part) / static_cast<double>(all);
+}
+
+std::string in_units(const CommissionReport& report, design::StageQuantity quantity, double value) {
+  const QuantityUnit unit = unit_of(quantity, report.units);
+  return fmt::format("{} {}", checked_number(unit.factor * value), unit.unit);
+}
+
+std::string verdict_of(const RecordedStage& record) {
+  if (record.judged.empty()) return "not judged";
+  switch (worst_verdict(record.judged)) {
+    case StageVerdict::passes:
+      return "passes";
+    case StageVerdict::outside:
+      return "OUTSIDE its bracket: find the cause before the next stage";
+    case StageVerdict::abort:
+      break;
+  }
+  return "ABORT: back to the previous stage";
+}
+
+std::string estimate(const design::PlantEstimate& value, double unit, const char* form) {
+  const auto text = [&](double number) {
+    return fmt::format(fmt::runtime(form), number / unit);
+  };
+  return fmt::format("{} ({} to {})", text(value.mean), text(value.lower), text(value.upper));
+}
+
+// A fault and the stage that shows it.
+std::vector<std::string> fault_row(const CommissionReport& report, const design::FaultTrial& trial) {
+  if (!trial.caught) return {trial.fault, "none", "passes every stage: none depends on it"};
+  const auto& stage = report.sheets[*trial.caught].stage;
+  std::string shows = "oscillates";
+  if (trial.judgement.worst) {
+    const auto interval = pass_interval(*trial.judgement.worst, stage, report.options.rms_allowance);
+    const QuantityUnit unit = unit_of(*trial.judgement.worst, report.units);
+    shows = fmt::format("{} {}, expected {} to {}{}", to_string(*trial.judgement.worst),
+                        in_units(report, *trial.judgement.worst, trial.measured),
+                        checked_number(unit.factor * interval.lower),
+                        checked_number(unit.factor * interval.upper),
+                        trial.judgement.verdict == StageVerdict::abort ? ": abort" : "");
+  }
+  return {trial.fault, fmt::format("{} {}", *trial.caught + 1, stage_name(stage)), shows};
+}
+
+}  // namespace
+
+std::string stage_name(const design::CommissioningStage& stage) {
+  const auto kind = to_string(stage.kind);
+  return stage.steps == 1 ? std::string(kind)
+                          : fmt::format("{}, {} of {}", kind, stage.step, stage.steps);
+}
+
+std::string command_in_words(const CommissionReport& report, const StageSheet& sheet) {
+  const double sky = report.gear_ratio * millidegree;
+  if (sheet.stage.kind == design::StageKind::feedforward) {
+    return fmt::format("move up to {:.3g} mdeg/s in {:.3g} s, steady, and down again",
+                       report.move.rate / sky, report.move.rate / report.move.acceleration);
+  }
+  const bool open = sheet.stage.controller.position_open;
+  return fmt::format("step of the {} command, {:.3g} mdeg{} at the sky", open ? "rate" : "position",
+                     sheet.step / millidegree, open ? "/s" : "");
+}
+
+std::vector<std::string> about_records(const CommissionReport& report) {
+  std::vector<std::string> sentences;
+  for (const RecordedStage& record : report.records) {
+    std::string text =
+        fmt::format("Stage {} ({}), {}: {}", record.stage + 1,
+                    stage_name(report.sheets[record.stage].stage), record.file, verdict_of(record));
+    for (const auto& one : record.judged) {
+      if (one.verdict == StageVerdict::passes) continue;
+      const QuantityUnit unit = unit_of(one.measured.quantity, report.units);
+      text += fmt::format("; {} {}, expected {} to {}", to_string(one.measured.quantity),
+                          in_units(report, one.measured.quantity, one.measured.value),
+                          checked_number(unit.factor * one.expected.lower),
+                          checked_number(unit.factor * one.expected.upper));
+    }
+    sentences.push_back(text + ".");
+  }
+  if (!report.update) return sentences;
+  const design::PlantUpdate& update = *report.update;
+  if (!update.explained) {
+    std::vector<std::string> faults;
+    for (const auto& fault : update.faults) faults.push_back(fault.fault);
+    constexpr std::size_t most = 3;
+    if (faults.size() > most) faults.resize(most);
+    sentences.push_back(
+        faults.empty()
+            ? "No plant of the uncertainty set responds like this, nor does one of the usual "
+              "faults: check scales, signs and units of the records and the gains loaded."
+            : fmt::format("No plant of the uncertainty set responds like this. What explains it "
+                          "better, the best first: {}.",
+                          fmt::join(faults, "; ")));
+    return sentences;
+  }
+  const double sky = report.gear_ratio * millidegree;
+  sentences.push_back(fmt::format(
+      "By the records the antenna will end at {} mdeg boresight rms in the design wind (linear), "
+      "{} before them.",
+      estimate(update.final_rms_after, sky, "{:.3f}"),
+      estimate(update.final_rms_before, sky, "{:.3f}")));
+  return sentences;
+}
+
+std::vector<std::string> about_trials(const CommissionReport& report) {
+  std::vector<std::string> sentences;
+  if (!report.trials.empty()) {
+    const auto& first = report.trials.front();
+    std::size_t stable = first.plants;
+    std::size_t passing = first.plants;
+    std::size_t aborted = 0;
+    for (std::size_t i = 0; i < report.trials.size(); ++i) {
+      if (report.sheets[i].stage.kind == design::StageKind::as_found) continue;
+      stable = std::min(stable, report.trials[i].stable);
+      passing = std::min(passing, report.trials[i].passing);
+      aborted = std::max(aborted, report.trials[i].aborted);
+    }
+    sentences.push_back(fmt::format(
+        "On {} fresh plants of the uncertainty set every stage is stable on {:.2f} % or more and "
+        "within its brackets on {:.1f} % or more; no stage aborts on more than {:.2f} %.",
+        first.plants, percentage(stable, first.plants), percentage(passing, first.plants),
+        percentage(aborted, first.plants)));
+  }
+  if (!report.faults.empty()) {
+    const auto caught = std::ranges::count_if(
+        report.faults, [](const design::FaultTrial& trial) { return trial.caught.has_value(); });
+    sentences.push_back(fmt::format("The stages catch {} of {} usual faults of scale, sign and build.",
+                                    caught, report.faults.size()));
+  }
+  return sentences;
+}
+
+Document trials_part(const CommissionReport& report) {
+  Document text;
+  if (!report.trials.empty()) {
+    Rows rows{{"stage", "", "stable %", "in brackets %", "aborts %", "most often outside", "%"}};
+    for (std::size_t i = 0; i < report.trials.size(); ++i) {
+      const auto& trial = report.trials[i];
+      rows.push_back({fmt::format("{}", i + 1), stage_name(report.sheets[i].stage),
+                      fmt::format("{:.2f}", percentage(trial.stable, trial.plants)),
+                      fmt::format("{:.2f}", percentage(trial.passing, trial.plants)),
+                      fmt::format("{:.2f}", percentage(trial.aborted, trial.plants)),
+                      trial.worst ? std::string(to_string(*trial.worst)) : "-",
+                      fmt::format("{:.2f}", percentage(trial.worst_outside, trial.plants))});
+    }
+    text += heading(fmt::format("Stages on {} fresh plants", report.trials.front().plants));
+    text += essential(table(rows, "rlrrrl"));
+  }
+  if (!report.faults.empty()) {
+    Rows rows{{"fault", "caught at stage", "which shows"}};
+    for (const auto& trial : report.faults) rows.push_back(fault_row(report, trial));
+    text += heading("What a wrong antenna would show");
+    text += table(rows, "lll");
+    text += wrapped("Each fault alone, on the nominal plant; later stages are not run.", "  ");
+  }
+  return text;
+}
+
+Document records_part(const CommissionReport& report) {
+  if (report.records.empty()) return {};
+  Document text = heading("Records of stages");
+  for (const RecordedStage& record : report.records) {
+    Rows rows{{fmt::format("stage {}", record.stage + 1), "unit", "measured", "+-", "from", "to",
+               "abort above", "verdict"}};
+    for (const auto& one : record.judged) {
+      const auto [unit, factor] = unit_of(one.measured.quantity, report.units);
+      rows.push_back({std::string(to_string(one.measured.quantity)), unit,
+                      checked_number(factor * one.measured.value),
+                      checked_number(factor * one.measured.uncertainty),
+                      checked_number(factor * one.expected.lower),
+                      checked_number(factor * one.expected.upper),
+                      one.abort ? checked_number(factor * *one.abort) : "-",
+                      std::string(to_string(one.verdict))});
+    }
+    text += essential(table(rows, "llrrrrrl"));
+    for (const auto& remark : record.remarks) text += wrapped(remark, "  ");
+  }
+  if (!report.update) return text;
+  const design::PlantUpdate& update = *report.update;
+  text += wrapped(
+      fmt::format("+-: standard uncertainty; two of them count for the stage. {} quantities on {} "
+                  "plants: as many as {:.0f} equally likely ones are left; mismatch of the best "
+                  "{:.1f} (chi-squared).",
+                  update.quantities, update.plants, update.effective, update.mismatch),
+      "  ");
+  if (update.explained) {
+    Rows rows{{"input (factor on the case's)", "before", "after"}};
+    for (const auto& input : update.inputs) {
+      rows.push_back({std::string(to_string(input.input)), estimate(input.before, 1.0, "{:.3f}"),
+                      estimate(input.after, 1.0, "{:.3f}")});
+    }
+    text += essential(table(rows, "lll"));
+    text += wrapped("Mean and 95 % interval; friction slope in N.m.s/rad.", "  ");
+  }
+  return text;
+}
+
+}  // namespace boresight::app

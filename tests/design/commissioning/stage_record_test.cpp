@@ -1,0 +1,171 @@
+#include <cmath>
+#include <random>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "planned_stages.hpp"
+#include <boresight/control/loops/command_loop.hpp>
+#include <boresight/design/commissioning/stage_record.hpp>
+#include <boresight/numerics/error.hpp>
+#include <boresight/plant/linear/time_response.hpp>
+
+namespace boresight::design {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using testing::HasSubstr;
+
+constexpr double sample_time = 0.02;
+
+const CommissioningStage& stage_with(bool position_open) {
+  const auto& stages = reference::planned_stages().plan.stages;
+  for (const auto& stage : stages) {
+    if (stage.controller.position_open == position_open && stage.kind != StageKind::feedforward) {
+      return stage;
+    }
+  }
+  throw NumericalFailure("no such stage");
+}
+
+StageObservation observed(const CommissioningStage& stage) {
+  const auto& planned = reference::planned_stages();
+  const TrackingProblem problem = tracking_problem(planned.mission);
+  return StageObserver(problem, problem.plant, WindTable(problem), planned.move)
+      .observe(stage.controller);
+}
+
+// A square wave of the command on a steady motion, and the linear antenna's answer with noise.
+identification::ServoRecord square_wave(const CommissioningStage& stage, double noise, int halves) {
+  const TrackingProblem problem = tracking_problem(reference::planned_stages().mission);
+  const plant::StateSpace system = plant::to_state_space(problem.plant);
+  const bool open = stage.controller.position_open;
+  const auto loop =
+      open ? control::rate_command_loop(system, stage.controller.controller, problem.delay)
+           : control::position_command_loop(system, stage.controller.controller, problem.delay);
+  const auto half = static_cast<Index>(60.0 / (stage.expected.crossover.nominal * sample_time));
+  const Index samples = half * (halves + 1);
+  constexpr double size = 3.0;
+  constexpr double rate = 0.01;  // of the motion below a position step, per second
+  Eigen::MatrixXd input =
+      Eigen::MatrixXd::Zero(samples, static_cast<Index>(loop.inputs.size()));
+  for (Index k = 0; k < samples; ++k) {
+    const double motion = open ? rate : rate * sample_time * static_cast<double>(k);
+    input(k, 0) = motion + ((k / half) % 2 == 1 ? size : 0.0);
+  }
+  plant::LinearSimulation simulation(loop, sample_time);
+  VectorXd response = simulation.simulate(input).col(0);
+  std::mt19937 numbers(7);
+  std::normal_distribution<double> normal(0.0, noise * size);
+  for (double& value : response) value += normal(numbers);
+  identification::ServoRecord record;
+  record.name = "square wave";
+  record.sample_time = sample_time;
+  (open ? record.rate_command : record.position_command) =
+      identification::Signal{input.col(0), {}};
+  (open ? record.motor_rate : record.encoder) = identification::Signal{response, {}};
+  return record;
+}
+
+const MeasuredQuantity& quantity_of(const StageMeasurement& measurement, StageQuantity quantity) {
+  for (const auto& one : measurement.quantities) {
+    if (one.quantity == quantity) return one;
+  }
+  throw NumericalFailure("not measured");
+}
+
+TEST(MeasureStage, ReadsWhatTheObserverPredicts) {
+  for (const bool open : {true, false}) {
+    const CommissioningStage& stage = stage_with(open);
+    const StageObservation expected = observed(stage);
+    const auto measured = measure_stage(square_wave(stage, 0.0, 4), stage, 1.0);
+    EXPECT_NEAR(quantity_of(measured, StageQuantity::rise_time).value, expected.rise_time,
+                0.02 * expected.rise_time + sample_time);
+    EXPECT_NEAR(quantity_of(measured, StageQuantity::overshoot).value, expected.overshoot, 0.01);
+    EXPECT_NEAR(quantity_of(measured, StageQuantity::settling_time).value, expected.settling_time,
+                0.05 * expected.settling_time);
+    EXPECT_NEAR(measured.step_size, 3.0, 0.05);
+  }
+}
+
+// The truth lies within four standard uncertainties, which noise makes what they are.
+TEST(MeasureStage, StatesWhatNoiseLeavesUncertain) {
+  const CommissioningStage& stage = stage_with(false);
+  const StageObservation expected = observed(stage);
+  for (const int halves : {1, 6}) {
+    const auto measured = measure_stage(square_wave(stage, 0.02, halves), stage, 1.0);
+    const auto& rise = quantity_of(measured, StageQuantity::rise_time);
+    const auto& overshoot = quantity_of(measured, StageQuantity::overshoot);
+    EXPECT_EQ(rise.steps, static_cast<std::size_t>(halves));
+    EXPECT_NEAR(rise.value, expected.rise_time,
+                4.0 * rise.uncertainty + 0.02 * expected.rise_time);
+    EXPECT_NEAR(overshoot.value, expected.overshoot, 4.0 * overshoot.uncertainty + 0.02);
+    EXPECT_GT(overshoot.uncertainty, 0.0);
+    EXPECT_EQ(worst_verdict(judge(measured, stage, 1.2)), StageVerdict::passes);
+  }
+}
+
+TEST(MeasureStage, DoesNotDependOnTheUnitOrTheSignOfTheStep) {
+  const CommissioningStage& stage = stage_with(true);
+  auto record = square_wave(stage, 0.01, 4);
+  const auto first = measure_stage(record, stage, 1.0);
+  record.rate_command->values *= -20.0;
+  record.motor_rate->values *= -20.0;
+  const auto second = measure_stage(record, stage, 1.0);
+  ASSERT_EQ(first.quantities.size(), second.quantities.size());
+  for (std::size_t i = 0; i < first.quantities.size(); ++i) {
+    EXPECT_NEAR(second.quantities[i].value, first.quantities[i].value, 1e-9);
+    EXPECT_NEAR(second.quantities[i].uncertainty, first.quantities[i].uncertainty, 1e-9);
+  }
+}
+
+// White noise through a low pass has as many independent squares as its correlation leaves.
+TEST(MeasureStage, KnowsTheUncertaintyOfAnRmsOfCorrelatedSamples) {
+  const CommissioningStage& stage = stage_with(true);
+  constexpr double memory = 0.95;
+  std::vector<double> values;
+  double relative = 0.0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    std::mt19937 numbers(seed);
+    std::normal_distribution<double> normal;
+    identification::ServoRecord record;
+    record.name = "still";
+    record.sample_time = sample_time;
+    VectorXd rate(6000);
+    double state = 0.0;
+    for (double& value : rate) {
+      state = memory * state + normal(numbers);
+      value = state;
+    }
+    record.motor_rate = identification::Signal{rate, {}};
+    const auto measured = measure_stage(record, stage, 1.0);
+    EXPECT_THAT(measured.remarks, testing::Contains(HasSubstr("no channel for the valve")));
+    const auto& one = quantity_of(measured, StageQuantity::calm_tachometer);
+    values.push_back(one.value);
+    relative += one.uncertainty / one.value / 40.0;
+  }
+  double mean = 0.0;
+  double square = 0.0;
+  for (const double value : values) mean += value / 40.0;
+  for (const double value : values) square += std::pow(value - mean, 2) / 39.0;
+  EXPECT_NEAR(mean, 1.0 / std::sqrt(1.0 - memory * memory), 0.03 * mean);
+  // The scatter of 40 values is itself known to 11 %.
+  EXPECT_NEAR(std::sqrt(square) / mean, relative, 0.3 * relative);
+}
+
+TEST(MeasureStage, RefusesARecordThatShowsNothingOfTheStage) {
+  const CommissioningStage& stage = stage_with(true);
+  identification::ServoRecord record;
+  record.name = "empty";
+  record.sample_time = sample_time;
+  EXPECT_THROW(measure_stage(record, stage, 1.0), InvalidInput);
+  record.motor_rate = identification::Signal{VectorXd::Zero(50), {}};
+  EXPECT_THROW(measure_stage(record, stage, 1.0), InvalidInput);
+  record.motor_rate = identification::Signal{VectorXd::Zero(500), {}};
+  record.sample_time = 0.0;
+  EXPECT_THROW(measure_stage(record, stage, 1.0), InvalidInput);
+}
+
+}  // namespace
+}  // namespace boresight::design

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/commissioning/band_power.hpp>
 #include <boresight/design/commissioning/commissioning_records.hpp>
 #include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 
 namespace boresight::design {
 namespace {
@@ -16,9 +16,6 @@ constexpr Eigen::Index min_samples = 64;
 // A segment is at most this part of the shorter record: enough averages for an interval.
 constexpr double segment_fraction = 1.0 / 8.0;
 constexpr double bins_of_a_band = 3.0;
-// Squared correlation of the spectrum at bins 0, 1 and 2 apart under Hann's window: (2/3)^2,
-// (1/6)^2.
-constexpr std::array window_correlation{1.0, 4.0 / 9.0, 1.0 / 36.0};
 
 void check(const RecordedChannel& channel, const char* which) {
   const bool sampled = channel.sample_time > 0.0 && std::isfinite(channel.sample_time);
@@ -44,44 +41,11 @@ identification::SpectralMatrix spectrum(const RecordedChannel& channel, double s
                                          channel.valid);
 }
 
-// Power and degrees of freedom between two frequencies (Hz).
-struct BandPower {
-  double mean_square = 0.0, freedom = 0.0;
-  int bins = 0;
-};
-
-BandPower power_between(const identification::SpectralMatrix& matrix, double from, double to) {
-  const Eigen::VectorXd density = matrix.auto_density(0);
-  const double bin = matrix.frequency[1] - matrix.frequency[0];
-  double sum = 0.0;
-  double covariance = 0.0;
-  BandPower power;
-  std::array<double, window_correlation.size()> last{};  // this density and those before it
-  for (Eigen::Index i = 1; i < density.size(); ++i) {
-    if (matrix.frequency[i] < from || matrix.frequency[i] >= to) continue;
-    std::ranges::rotate(last, last.end() - 1);
-    last[0] = density[i];
-    sum += density[i];
-    for (std::size_t lag = 0; lag < last.size(); ++lag) {
-      const double correlation = window_correlation.at(lag);
-      // Products of estimates are too large by what the two have in common.
-      covariance += (lag == 0 ? 1.0 : 2.0) * correlation * last[0] * last.at(lag) /
-                    (1.0 + correlation / matrix.effective_averages);
-    }
-    ++power.bins;
-  }
-  power.mean_square = sum * bin;
-  if (covariance > 0.0) {
-    power.freedom = 2.0 * matrix.effective_averages * std::max(1.0, sum * sum / covariance);
-  }
-  return power;
-}
-
 BandComparison compare_band(const identification::SpectralMatrix& before,
                             const identification::SpectralMatrix& after, double from, double to,
                             double confidence) {
-  const BandPower first = power_between(before, from, to);
-  const BandPower second = power_between(after, from, to);
+  const BandPower first = band_power(before, 0, from, to);
+  const BandPower second = band_power(after, 0, from, to);
   if (first.bins == 0 || second.bins == 0) {
     throw InvalidInput(
         fmt::format("compare_records: expected bands that hold frequencies of both "
@@ -98,14 +62,11 @@ BandComparison compare_band(const identification::SpectralMatrix& before,
   BandComparison band{
       from,          to, std::sqrt(first.mean_square), std::sqrt(second.mean_square), first.freedom,
       second.freedom};
-  const double ratio = second.mean_square / first.mean_square;
-  const double probability = 0.5 * (1.0 - confidence);
-  band.ratio = std::sqrt(ratio);
-  band.lower = std::sqrt(
-      ratio / numerics::f_quantile(1.0 - probability, band.freedom_after, band.freedom_before));
-  band.upper =
-      std::sqrt(ratio / numerics::f_quantile(probability, band.freedom_after, band.freedom_before));
-  band.change = band.upper < 1.0 ? Change::better : band.lower > 1.0 ? Change::worse : Change::none;
+  const auto [ratio, lower, upper] = rms_ratio(first, second, confidence);
+  band.ratio = ratio;
+  band.lower = lower;
+  band.upper = upper;
+  band.change = change_of({ratio, lower, upper});
   return band;
 }
 
@@ -123,6 +84,10 @@ std::vector<double> octaves(double highest, double bin) {
 std::string_view to_string(Change change) {
   static constexpr std::array names{"no significant change", "better", "worse"};
   return names.at(static_cast<std::size_t>(change));
+}
+
+Change change_of(const RatioBand& ratio) {
+  return ratio.upper < 1.0 ? Change::better : ratio.lower > 1.0 ? Change::worse : Change::none;
 }
 
 RecordComparison compare_records(const RecordedChannel& before, const RecordedChannel& after,

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include <boresight/design/commissioning/ratio_band.hpp>
+
 namespace boresight::design {
 
 /// A recorded channel.
@@ -27,6 +29,7 @@ enum class Change {
   worse,   // the interval lies above 1
 };
 std::string_view to_string(Change change);
+Change change_of(const RatioBand& ratio);
 
 /// Mean squares of two records in one band, about their means.
 struct BandComparison {

@@ -7,6 +7,7 @@
 
 #include <boresight/design/commissioning/commissioning.hpp>
 #include <boresight/design/commissioning/commissioning_records.hpp>
+#include <boresight/design/commissioning/ratio_band.hpp>
 #include <boresight/identification/records/drive_record.hpp>
 
 namespace boresight::design {
@@ -20,11 +21,6 @@ enum class ComparedQuantity {
 };
 std::string_view to_string(ComparedQuantity quantity);
 std::string_view unit_of(ComparedQuantity quantity);
-
-/// A ratio of rms, after over before.
-struct RatioBand {
-  double value = 0.0, lower = 0.0, upper = 0.0;
-};
 
 struct QuantityComparison {
   ComparedQuantity quantity = ComparedQuantity::motor_rate;

@@ -253,22 +253,31 @@ class Comparison {
     }
   }
 
+  // Mean speeds that both conditions have.
+  std::pair<double, double> shared_range() const {
+    return {std::max(result_.before.slowest, result_.after.slowest),
+            std::min(result_.before.fastest, result_.after.fastest)};
+  }
+
   void compare_coherence() {
-    std::array<std::vector<CoherentSpectra>, 2> sides;
+    const auto [lowest, highest] = shared_range();
+    std::array<std::vector<CoherentSpectra>, 2> in_equal_wind;
     for (std::size_t side = 0; side < 2; ++side) {
-      for (const auto& spectra : evaluated_.at(side).spectra) {
-        sides.at(side).push_back(coherent_spectra(spectra, bins()));
+      std::vector<CoherentSpectra> all;
+      for (std::size_t i = 0; i < condition(side).records.size(); ++i) {
+        all.push_back(coherent_spectra(evaluated_.at(side).spectra[i], bins()));
+        const double speed = condition(side).records[i].mean_speed;
+        if (speed >= lowest && speed <= highest) in_equal_wind.at(side).push_back(all.back());
       }
-      const ExplainedPower explained = explained_power(sides.at(side));
+      const ExplainedPower explained = explained_power(all);
       condition(side).explained = explained.fraction;
       condition(side).explained_by_chance = explained.by_chance;
     }
-    result_.by_coherence = coherent_ratio(sides[0], sides[1], options_.confidence);
+    result_.by_coherence = coherent_ratio(in_equal_wind[0], in_equal_wind[1], options_.confidence);
   }
 
   void regress() {
-    const double lowest = std::max(result_.before.slowest, result_.after.slowest);
-    const double highest = std::min(result_.before.fastest, result_.after.fastest);
+    const auto [lowest, highest] = shared_range();
     if (lowest > equal_range * highest) {
       result_.kind = WindComparisonKind::no_overlap;
       return;

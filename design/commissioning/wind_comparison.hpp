@@ -84,7 +84,7 @@ struct WindComparison {
   /// By regression only.
   std::optional<RatioAtSpeed> at_design;
   /// Ratio of the rms of the parts of the error that are coherent with the wind, in the same wind.
-  /// Absent unless both conditions have three records and more coherence than by chance.
+  /// Absent unless both conditions have three records there and more coherence than by chance.
   std::optional<RatioBand> by_coherence;
   /// Of the regression: exponent of the wind speed, of the gusts.
   double exponent = 0.0, gust_exponent = 0.0;
@@ -109,11 +109,12 @@ struct WindComparison {
 /// Coherence: with the spectra of all records of a condition added up, H = S_we/S_ww is the
 /// response from the squared wind speed to the error, and |H|^2 S_ww the coherent part of the
 /// error's spectrum. The squared coherence is reduced by its bias for n averages, (1 -
-/// coherence)/(n - 1) (J. S. Bendat, A. G. Piersol, Random Data, 4th ed., 9.2). `by_coherence`
-/// takes both H in the mean spectrum of the wind of all records, whatever winds those of each
-/// condition had; its interval is by the jackknife over records, with Student's t. It is evidence
-/// that does not depend on the regression, of the slow gusts alone that mast and dish have in
-/// common: not of the whole error.
+/// coherence)/(n - 1) (J. S. Bendat, A. G. Piersol, Random Data, 4th ed., 9.2). `by_coherence` is
+/// of the records whose mean speed both conditions have, as the coherence of mast and dish depends
+/// on it. It takes both H in the mean spectrum of the wind of all of them; its interval is by the
+/// jackknife over records, with Student's t. This evidence does not depend on the regression, and
+/// is of the slow gusts alone that mast and dish have in common: a controller may be better against
+/// these and worse otherwise.
 ///
 /// Wind speeds within 5 % of each other count as equal, in the ranges of the conditions; those of
 /// `equal_wind` differ by at most 10 %.

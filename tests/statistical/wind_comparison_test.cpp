@@ -13,12 +13,10 @@ TEST(CompareInWind, IsRightIn90Of100PairsOf20RecordsInDifferentWinds) {
   RecordProperty("better", counted.better);
   RecordProperty("held", counted.held);
   RecordProperty("change_without_change", counted.change_without_change);
-  RecordProperty("better_by_coherence", counted.better_by_coherence);
   EXPECT_GE(counted.better, 90);
   EXPECT_LE(counted.change_without_change, 10);
   // The 95 % interval holds the ratio that the linear loops have at that speed.
   EXPECT_GE(counted.held, 88);
-  EXPECT_GE(counted.better_by_coherence, 90);
   // Of the logarithm of the ratio, which is -1: an interval that holds it by being wide is of no
   // use.
   EXPECT_LT(std::abs(counted.log_error), 0.03);

@@ -26,7 +26,6 @@ class SimulatedPairs {
     int better = 0;  // the change called better
     int held = 0;    // the interval holds the computed ratio
     int change_without_change = 0;
-    int better_by_coherence = 0;               // or no coherence to tell by
     double log_error = 0.0, log_square = 0.0;  // mean of ln(ratio/computed), and of its square
     double half_width = 0.0;                   // mean, of the logarithm
   };
@@ -53,8 +52,6 @@ class SimulatedPairs {
       counts.held += holds(at.ratio, expected);
       counts.change_without_change +=
           unchanged.at_reference->change != design::Change::none ? 1 : 0;
-      counts.better_by_coherence +=
-          !changed.by_coherence || changed.by_coherence->upper < 1.0 ? 1 : 0;
       const double error = std::log(at.ratio.value / expected);
       counts.log_error += error / repetitions;
       counts.log_square += error * error / repetitions;

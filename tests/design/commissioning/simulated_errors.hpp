@@ -14,15 +14,18 @@
 
 namespace boresight::reference {
 
-/// Records of ten minutes, from the linear closed loop in time.
+/// Records of ten minutes, from the linear closed loop in time; of the reference antenna by
+/// default.
 class SimulatedErrors {
  public:
   static constexpr double sample_time = 0.1, duration = 600.0, settling = 60.0;  // s
   /// m from the dish: gusts there are the dish's own with the coherence exp(-c f r/V).
   static constexpr double mast_distance = 50.0;
 
-  explicit SimulatedErrors(const control::Controller& controller)
-      : loop_(control::closed_loop(problem_.plant, controller, problem_.delay)),
+  explicit SimulatedErrors(const control::Controller& controller,
+                           const design::TrackingProblem& problem = tracking_problem())
+      : problem_(problem),
+        loop_(control::closed_loop(problem_.plant, controller, problem_.delay)),
         simulation_(loop_, sample_time, {.interpolation = plant::Interpolation::first_order_hold}) {
   }
 
@@ -34,7 +37,7 @@ class SimulatedErrors {
     Eigen::MatrixXd input =
         Eigen::MatrixXd::Zero(samples, static_cast<Eigen::Index>(loop_.inputs.size()));
     input.col(plant::input_index(loop_, "wind_torque")) =
-        gustiness / gear_ratio() * (wind.torque.draw(seed, 0) + wind.gradient.draw(seed, 1));
+        gustiness / problem_.gear_ratio * (wind.torque.draw(seed, 0) + wind.gradient.draw(seed, 1));
     // White noise of the sensors up to half the sampling rate.
     const double fraction = std::sqrt(0.5 / sample_time / problem_.noise.bandwidth);
     const numerics::NormalNumbers noise(seed, 3);
@@ -51,8 +54,8 @@ class SimulatedErrors {
         gustiness * (wind.shared_gust.draw(seed, 0) + wind.own_gust.draw(seed, 2));
     design::WindyRecord result;
     result.sample_time = sample_time;
-    result.error.values =
-        output.col(plant::output_index(loop_, "beam")).tail(samples - skipped) / gear_ratio();
+    result.error.values = output.col(plant::output_index(loop_, "beam")).tail(samples - skipped) /
+                          problem_.gear_ratio;
     result.wind_speed.values =
         (mean_speed + gust.tail(samples - skipped).array()).cwiseMax(0.0).matrix();
     return result;
@@ -65,7 +68,7 @@ class SimulatedErrors {
     problem.wind.mean_speed = mean_speed;
     problem.rms_band = {lowest, highest};
     const auto evaluation = design::make_evaluator(problem).evaluate(controller, false);
-    return std::sqrt(evaluation.boresight_variance()) / gear_ratio();
+    return std::sqrt(evaluation.boresight_variance()) / problem_.gear_ratio;
   }
 
  private:
@@ -102,7 +105,7 @@ class SimulatedErrors {
         .first->second;
   }
 
-  design::TrackingProblem problem_ = tracking_problem();
+  design::TrackingProblem problem_;
   plant::StateSpace loop_;
   plant::LinearSimulation simulation_;
   std::map<double, Winds> winds_;

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <boresight/app/commands/benchmark_change.hpp>
 #include <boresight/app/commands/benchmark_command.hpp>
 #include <boresight/app/commands/controller_option.hpp>
 #include <boresight/app/commands/progress_line.hpp>
@@ -127,7 +128,7 @@ int run(BenchmarkArguments arguments) {
   arguments.threads = all_or(arguments.threads);
   watch_for_interrupt();
   try {
-    return score(arguments);
+    return arguments.change.asked() ? compare_change(arguments) : score(arguments);
   } catch (const Interrupted&) {
     fmt::print(stderr, "boresight: interrupted before a controller was available\n");
     return interrupted;
@@ -138,8 +139,10 @@ int run(BenchmarkArguments arguments) {
 
 Subcommand add_benchmark(CLI::App& program) {
   const auto arguments = std::make_shared<BenchmarkArguments>();
-  CLI::App* sub = program.add_subcommand(
-      "benchmark", "score the closed loop's disturbance rejection by a fixed protocol");
+  CLI::App* sub = program.add_subcommand("benchmark",
+                                         "score the closed loop's disturbance rejection by a fixed "
+                                         "protocol; or compare records before "
+                                         "and after a change of the controller");
   add_case(*sub, arguments->case_path);
   add_controller(*sub, "controller to score", arguments->controller);
   sub->add_flag("--sampled", arguments->sampled,
@@ -148,6 +151,22 @@ Subcommand add_benchmark(CLI::App& program) {
                   "write the controller in use as state space to FILE.mat or FILE.json");
   sub->add_option("--compare", arguments->compare_path,
                   "compare with another score sheet (--json of this command)");
+  auto& change = arguments->change;
+  sub->add_option("--before", change.before,
+                  "records of the servo before the change, with error and wind speed: compare them "
+                  "at equal wind with those of --after, instead of scoring")
+      ->expected(1, 1000);
+  sub->add_option("--after", change.after, "records after the change to the controller in question")
+      ->expected(1, 1000);
+  sub->add_option("--old-gains", change.old_gains,
+                  "gains before the change, KEY=VALUE each, all of them (default: [gains])")
+      ->expected(1, 100);
+  sub->add_option("--old-structure", change.old_structure,
+                  "structure of --old-gains (default: that of [gains], or DPF)");
+  sub->add_option("--old-controller", change.old_controller,
+                  "the controller before the change as state space, as --controller");
+  sub->add_option("--change-record", change.record_path,
+                  "write a change record of one page, to print and sign, to FILE.html");
   add_outputs(*sub, arguments->outputs);
   add_seed(*sub, arguments->seed);
   add_threads(*sub, arguments->threads);

@@ -43,6 +43,8 @@ void name_values(CLI::App& command) {
                                                          {"--before", "RECORD"},
                                                          {"--after", "RECORD"},
                                                          {"--goal", "KEY=VALUE"},
+                                                         {"--old-gains", "KEY=VALUE"},
+                                                         {"--old-structure", "NAME"},
                                                          {"--speed", "SPEED"},
                                                          {"--inputs", "NAMES"},
                                                          {"--outputs", "NAMES"},
@@ -57,6 +59,10 @@ void name_values(CLI::App& command) {
   CLI::Option* gains = command.get_option_no_throw("--gains");
   if (gains != nullptr) {
     gains->type_name(command.get_name() == "commission" ? "KEY=VALUE" : "FILE");
+  }
+  for (const char* records : {"--before", "--after"}) {
+    CLI::Option* option = command.get_option_no_throw(records);
+    if (option != nullptr && command.get_name() == "benchmark") option->type_name("FILE");
   }
 }
 

@@ -61,6 +61,10 @@ Page page_of(const BenchmarkReport& report) {
   return page;
 }
 
+Page page_of(const ChangeReport& report) {
+  return common(report, "benchmark");
+}
+
 Page page_of(const MonteCarloSection& section) {
   Page page = common(section, "montecarlo");
   page.interrupted = section.interrupted;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/benchmark/benchmark_report.hpp>
+#include <boresight/app/change/change_report.hpp>
 #include <boresight/app/commission/commission_study.hpp>
 #include <boresight/app/montecarlo/montecarlo_study.hpp>
 #include <boresight/app/report/common_description.hpp>
@@ -111,6 +112,12 @@ Json schema_named(std::string_view name) {
                                        "Score sheet of boresight benchmark (--json). Definitions: "
                                        "docs/benchmark-protocol.md."});
   }
+  if (name == "change") {
+    return schema_of<ChangeReport>({"Boresight comparison of records before and after a change",
+                                    schema_comment,
+                                    "Report of boresight benchmark --before --after (--json): "
+                                    "docs/commissioning.md."});
+  }
   if (name == "commission") {
     return schema_of<CommissionReport>(
         {"Report of boresight commission", schema_comment,
@@ -135,8 +142,8 @@ Json schema_named(std::string_view name) {
 }  // namespace
 
 const std::vector<std::string_view>& described_reports() {
-  static const std::vector<std::string_view> names{"benchmark", "commission", "montecarlo",
-                                                   "report", "simulation"};
+  static const std::vector<std::string_view> names{"benchmark",  "change", "commission",
+                                                   "montecarlo", "report", "simulation"};
   return names;
 }
 

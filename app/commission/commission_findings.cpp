@@ -69,7 +69,7 @@ std::string stage_name(const design::CommissioningStage& stage) {
 
 std::string command_in_words(const CommissionReport& report, const StageSheet& sheet) {
   const double sky = report.gear_ratio * millidegree;
-  if (sheet.stage.kind == design::StageKind::feedforward) {
+  if (sheet.stage.controller.feedforward) {
     return fmt::format("move up to {:.3g} mdeg/s in {:.3g} s, steady, and down again",
                        report.move.rate / sky, report.move.rate / report.move.acceleration);
   }

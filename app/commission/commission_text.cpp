@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -29,12 +30,15 @@ Document overview(const CommissionReport& report) {
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const auto& stage = report.sheets[i].stage;
     const auto& expected = stage.expected;
+    // With feedforward a move is made instead of a step.
+    const double step =
+        stage.controller.feedforward ? std::numeric_limits<double>::quiet_NaN() : 1.0;
     rows.push_back({fmt::format("{}", i + 1), stage_name(stage),
                     stage.controller.position_open ? "open" : "closed",
                     number(expected.peak.largest, "{:.2f}"),
                     number(expected.crossover.nominal / two_pi, "{:.4f}"),
-                    number(expected.rise_time.nominal, "{:.2f}"),
-                    number(100.0 * expected.overshoot.nominal, "{:.0f}"),
+                    number(step * expected.rise_time.nominal, "{:.2f}"),
+                    number(step * 100.0 * expected.overshoot.nominal, "{:.0f}"),
                     number(expected.calm_valve.nominal, "{:.4f}"),
                     number(expected.boresight_rms.nominal / sky, "{:.4f}"),
                     fmt::format("{}/{}", expected.stable, expected.plants)});

@@ -145,7 +145,7 @@ CardLine controller_line(const Report& report, const TuningSection& section) {
     gains.push_back(fmt::format("{} = {}", controller.structure.gains()[i].symbol, values[i]));
   }
   if (const auto* system = controller.structure.state_space()) {
-    gains.push_back(fmt::format("{}, sampled every {:.3g} s, matrices by `--mat FILE`",
+    gains.push_back(fmt::format("{}, sampled every {:.3g} s, code: `boresight export`",
                                 controller.structure.name(), system->sample_time));
   }
   const std::string beside =

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <boresight/control/controllers/delay.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
@@ -35,14 +37,30 @@ plant::StateSpace rate_command_loop(const plant::StateSpace& plant, const Contro
 plant::StateSpace position_command_loop(const plant::StateSpace& plant,
                                         const Controller& controller, double delay) {
   plant::StateSpace state_space = to_state_space(controller);
+  std::vector<plant::StateSpace> parts{
+      plant, weighted_sum(1.0, "encoder", -1.0, "command", "angle_less_command"),
+      weighted_sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
+      delay_approximant(delay, delay_order, "whole_demand", "valve_command")};
+  std::vector<std::string> inputs{"command", "rate_disturbance", "valve_feedforward",
+                                  "wind_torque"};
+  if (controller.structure.state_space() != nullptr) {
+    // It has no rate command: motion is what it reads less what is commanded (AntennaController).
+    std::vector<std::string> read{"tachometer", "encoder"};
+    if (controller.structure.feeds_torque_back()) read.emplace_back("motor_torque");
+    state_space = plant::subsystem(state_space, read, {"valve_demand"});
+    rename_input(state_space, "tachometer", "rate_less_command");
+    parts.push_back(
+        weighted_sum(1.0, "tachometer", -1.0, "rate_disturbance", "rate_less_command"));
+    if (controller.structure.feeds_torque_back()) {
+      rename_input(state_space, "motor_torque", "torque_less_command");
+      parts.push_back(
+          weighted_sum(1.0, "motor_torque", -1.0, "torque_feedforward", "torque_less_command"));
+      inputs.emplace_back("torque_feedforward");
+    }
+  }
   rename_input(state_space, "encoder", "angle_less_command");
-  return plant::connect(
-      {plant,
-       weighted_sum(1.0, "encoder", -1.0, "command", "angle_less_command"), state_space,
-       weighted_sum(1.0, "valve_demand", 1.0, "valve_feedforward", "whole_demand"),
-       delay_approximant(delay, delay_order, "whole_demand", "valve_command")},
-      {"command", "rate_disturbance", "valve_feedforward", "wind_torque"},
-      {"encoder", "motor_torque", "whole_demand"});
+  parts.push_back(std::move(state_space));
+  return plant::connect(parts, inputs, {"encoder", "motor_torque", "whole_demand"});
 }
 
 }  // namespace boresight::control

@@ -15,8 +15,9 @@ plant::StateSpace rate_command_loop(const plant::StateSpace& plant, const Contro
                                     double delay);
 
 /// Both loops with position command and feedforward signals as inputs. Inputs: command (rad),
-/// rate_disturbance (rad/s, added to the rate command), valve_feedforward (rad/s, added to the
-/// valve demand) and wind_torque (N m). Outputs: encoder (rad), motor_torque (N m) and whole_demand
+/// rate_disturbance (rad/s, subtracted from the tachometer, which adds it to the rate command of
+/// loops), valve_feedforward (rad/s, added to the valve demand), wind_torque (N m) and, of a state
+/// space that reads it, torque_feedforward (N m, subtracted from the motor torque). Outputs: encoder (rad), motor_torque (N m) and whole_demand
 /// (rad/s, feedforward included), all at the motor shaft. Dead time and `plant` as above.
 /// @throws InvalidInput as connect, and as to_state_space of the controller.
 plant::StateSpace position_command_loop(const plant::StateSpace& plant,

@@ -111,8 +111,8 @@ struct CommissioningPlan {
 /// by damping. Then the position loop is closed at the gains found (halved until every plant
 /// allows) and raised; then compliance compensation, then feedforward.
 /// A state space has no loops to close one by one: it takes over at the least factor on its output
-/// that can be raised to 1 in such steps, a quarter or the next step below it at the lowest; then
-/// feedforward.
+/// that can be raised to 1 in such steps, a quarter or the next step below it at the lowest. Its
+/// stages have feedforward: it reads tachometer and torque about the commanded motion.
 /// Every stage is stable by eigenvalues on the problem's plant and every member, with Ms at most
 /// `sensitivity_limit` (or the target's own, if larger).
 /// The plan does not depend on the number of threads. Cost: some 20 ms per stage and plant.

@@ -222,7 +222,9 @@ void StageObserver::observe_move(const StageController& stage, StageObservation&
   const double ramp = move_.rate / move_.acceleration;
   const double wait = 30.0 / seen.crossover;
   const double step = (3.0 * ramp + 2.0 * wait) / static_cast<double>(samples_watched);
-  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(samples_watched, 4);
+  const auto inputs = static_cast<Eigen::Index>(loop.inputs.size());
+  constexpr Eigen::Index torque = 4;  // of a state space that reads it
+  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(samples_watched, inputs);
   for (Eigen::Index k = 0; k < samples_watched; ++k) {
     const double t = step * static_cast<double>(k);
     const double end = 2.0 * ramp + wait;
@@ -237,6 +239,10 @@ void StageObserver::observe_move(const StageController& stage, StageObservation&
         forward.rate_to_rate_command * rate + forward.acceleration_to_rate_command * acceleration;
     input(k, 2) =
         forward.rate_to_valve_command * rate + forward.acceleration_to_valve_command * acceleration;
+    if (inputs > torque) {
+      input(k, torque) = forward.rate_to_motor_torque * rate +
+                         forward.acceleration_to_motor_torque * acceleration;
+    }
   }
   plant::LinearSimulation simulation(loop, step,
                                      {.interpolation = plant::Interpolation::first_order_hold});

@@ -305,7 +305,8 @@ std::optional<std::vector<PathStage>> output_path(
     const Controller& target, double largest_step,
     const std::function<bool(const StageController&)>& allowed, std::string& why_not) {
   const auto stage = [&](double factor) {
-    StageController controller{control::with_output_times(factor, target)};
+    // Reads the commanded rate beside the tachometer: without it, it would hold against a motion.
+    StageController controller{control::with_output_times(factor, target), false, true};
     controller.output_factor = factor;
     return controller;
   };
@@ -322,10 +323,7 @@ std::optional<std::vector<PathStage>> output_path(
   }
   std::ranges::reverse(stages);
   // The target itself, not its output times 1.
-  StageController whole{target};
-  stages.push_back({StageKind::output, whole});
-  whole.feedforward = true;
-  stages.push_back({StageKind::feedforward, whole});
+  stages.push_back({StageKind::output, {target, false, true}});
   return stages;
 }
 

@@ -31,7 +31,7 @@ std::vector<StageQuantity> measured_quantities(const CommissioningStage& stage) 
   using enum StageQuantity;
   if (!stage.expected.all_stable()) return {};
   std::vector<StageQuantity> quantities{rise_time, overshoot, settling_time};
-  if (stage.kind == StageKind::feedforward) quantities = {move_error};
+  if (stage.controller.feedforward) quantities = {move_error};
   quantities.push_back(calm_valve);
   quantities.push_back(stage.controller.position_open ? calm_tachometer : calm_encoder);
   std::erase_if(quantities, [&](StageQuantity quantity) {

@@ -275,7 +275,7 @@ StageMeasurement measure_stage(const ServoRecord& record, const CommissioningSta
   }
   StageMeasurement measurement;
   const std::vector<Index> steps = command ? steps_of(command->values) : std::vector<Index>{};
-  if (!steps.empty() && stage.kind != StageKind::feedforward) {
+  if (!steps.empty() && !stage.controller.feedforward) {
     if (response) {
       measure_steps(command->values, response->values, steps, record.sample_time, measurement);
     } else {

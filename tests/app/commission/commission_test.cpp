@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -122,6 +124,114 @@ TEST(Commission, SaysThatAControllerLimitCyclesOnTheNonlinearAntenna) {
   EXPECT_EQ(limit_cycles.exit_code, 0) << limit_cycles.errors;
   EXPECT_THAT(limit_cycles.output,
               ContainsRegex("On the nonlinear antenna PI has a limit cycle of \\+-[1-9]"));
+}
+
+nlohmann::json plan_of(const std::string& path, const std::vector<std::string>& more) {
+  auto arguments = more;
+  arguments.insert(arguments.end(), {"--json", "-"});
+  const ProgramResult result = commission(path, pressure_gains, arguments);
+  EXPECT_EQ(result.exit_code, 0) << result.errors;
+  return nlohmann::json::parse(result.output);
+}
+
+TEST(Commission, WritesSheetsBodePlotsAndTheControllerOfEveryStage) {
+  const ScratchFolder folder;
+  const std::string path = small_case(folder);
+  const auto plan = plan_of(path, {"--folder", folder.file("plan")});
+  const auto& stages = plan.at("stages");
+  std::size_t checks = 0;
+  for (const auto& stage : stages) checks += stage.at("checks").size();
+  const std::string sheets = content_of(folder.file("plan/sheets.csv"));
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(sheets, '\n')), checks + 1);
+  // The valve's signal in percent of its stroke, the tachometer in volts.
+  EXPECT_THAT(sheets, HasSubstr("\"valve command, still air\",\"% rms\""));
+  EXPECT_THAT(sheets, HasSubstr("\"tachometer, still air\",\"V rms\""));
+  const std::string page = content_of(folder.file("plan/sheets.html"));
+  EXPECT_THAT(page, HasSubstr("measured"));
+  EXPECT_THAT(page, HasSubstr("initials"));
+  EXPECT_THAT(page, HasSubstr(fmt::format("Stage {0} of {0}: feedforward", stages.size())));
+  for (std::size_t i = 1; i <= stages.size(); ++i) {
+    EXPECT_THAT(content_of(folder.file(fmt::format("plan/commission-bode-{}.csv", i))),
+                HasSubstr("gain"));
+  }
+  // The last stage's file is the controller, to the last bit.
+  const std::string last = folder.file(fmt::format("plan/stage_{:02}_gains.toml", stages.size()));
+  const ProgramResult again =
+      run_program({"commission", path, "--gains", last, "--json", "-", "--threads", "1"});
+  ASSERT_EQ(again.exit_code, 0) << again.errors;
+  EXPECT_EQ(nlohmann::json::parse(again.output).at("stages").back().at("gains"),
+            stages.back().at("gains"));
+}
+
+TEST(Commission, TriesFreshPlantsAndWrongAntennas) {
+  const ScratchFolder folder;
+  const auto plan = plan_of(small_case(folder), {"--plants", "20"});
+  ASSERT_EQ(plan.at("trials").size(), plan.at("stages").size());
+  for (const auto& trial : plan.at("trials")) {
+    EXPECT_EQ(trial.at("plants"), 20);
+    EXPECT_EQ(trial.at("stable"), 20);
+    EXPECT_LE(trial.at("passing"), trial.at("plants"));
+  }
+  const auto& faults = plan.at("faults");
+  const auto sign = std::ranges::find_if(
+      faults, [](const auto& one) { return one.at("fault") == "tachometer with the wrong sign"; });
+  ASSERT_NE(sign, faults.end());
+  EXPECT_EQ(sign->at("stage"), 1);
+  EXPECT_EQ(sign->at("stable"), false);
+  EXPECT_TRUE(sign->at("quantity").is_null());
+}
+
+// A first-order answer to a square wave: its rise from 10 to 90 % is ln 9 time constants.
+std::string step_record(const ScratchFolder& folder, double rise_time) {
+  const double lag = rise_time / std::log(9.0);
+  const double half = 8.0 * rise_time;
+  std::string text = "time [s],rate command [deg/s],motor rate [rad/s]\n";
+  constexpr double gear = 28724.0;
+  constexpr double size = 0.01;  // deg/s at the sky
+  double rate = 0.0;
+  for (int k = 0; k < static_cast<int>(4.0 * half / 0.1); ++k) {
+    const double time = 0.1 * k;
+    const double command = static_cast<int>(time / half) % 2 == 1 ? size : 0.0;
+    rate += (command - rate) * (1.0 - std::exp(-0.1 / lag));
+    text += fmt::format("{:.1f},{:.4f},{:.9g}\n", time, command,
+                        rate * gear * 0.017453292519943295);
+  }
+  return folder.write("stage.csv", text);
+}
+
+TEST(Commission, JudgesTheRecordOfAStageAndWeighsThePlantsByIt) {
+  const ScratchFolder folder;
+  const std::string path = small_case(folder);
+  const auto plan = plan_of(path, {});
+  double expected = 0.0;
+  for (const auto& check : plan.at("stages").front().at("checks")) {
+    if (check.at("quantity") == "rise time 10 to 90 %") expected = check.at("expected");
+  }
+  ASSERT_GT(expected, 0.0);
+  const auto good = plan_of(path, {"--record", "1", step_record(folder, expected)});
+  const auto& record = good.at("records").front();
+  EXPECT_EQ(record.at("stage"), 1);
+  ASSERT_FALSE(record.at("checks").empty());
+  for (const auto& check : record.at("checks")) EXPECT_EQ(check.at("verdict"), "passes");
+  EXPECT_NEAR(record.at("checks").front().at("measured"), expected, 0.02 * expected);
+  EXPECT_EQ(good.at("update").at("explained"), true);
+  EXPECT_THAT(good.at("conclusions").front(), HasSubstr("passes"));
+  // A valve of half its gain halves the loop's speed.
+  const auto wrong = plan_of(path, {"--record", "1", step_record(folder, 2.0 * expected)});
+  EXPECT_EQ(wrong.at("update").at("explained"), false);
+  EXPECT_THAT(wrong.at("conclusions").front(), HasSubstr("OUTSIDE"));
+  ASSERT_FALSE(wrong.at("update").at("faults").empty());
+  EXPECT_THAT(wrong.at("update").at("faults").front().at("fault"), HasSubstr("halved"));
+  // A stage that the plan does not have, and a file that is none.
+  const auto refusal = [&](const std::string& stage, const std::string& file) {
+    const ProgramResult result = commission(path, pressure_gains, {"--record", stage, file});
+    EXPECT_EQ(result.exit_code, 2);
+    return result.errors;
+  };
+  EXPECT_THAT(refusal("99", step_record(folder, expected)),
+              HasSubstr("expected a stage of the plan, 1 to"));
+  EXPECT_THAT(refusal("0", step_record(folder, expected)), HasSubstr("from 1, found 0"));
+  EXPECT_THAT(refusal("1", folder.file("none.csv")), HasSubstr("none.csv"));
 }
 
 TEST(Commission, RefusesWhatItCannotUse) {

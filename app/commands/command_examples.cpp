@@ -56,7 +56,10 @@ const std::map<std::string, Examples, std::less<>>& all_examples() {
         {"boresight benchmark case.toml --gains tuned.json --structure DPF+C --json score.json",
          "a controller from a report of tune; the score sheet to a file"},
         {"boresight benchmark case.toml --controller mine.mat --compare score.json",
-         "another controller, compared with that"}}},
+         "another controller, compared with that"},
+        {"boresight benchmark case.toml --gains new.toml --before old/*.csv --after new/*.csv "
+         "--change-record change.html",
+         "records before and after a change compared at equal wind"}}},
       {"commission",
        {{"boresight commission case.toml --structure PI", "a staged plan to robust PI gains"},
         {"boresight commission case.toml --largest-step 1.5", "in smaller stages"},

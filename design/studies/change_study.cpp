@@ -56,9 +56,9 @@ struct RmsPair {
   bool stable_after = false;
 };
 
-std::optional<PredictedChange> prediction(const RmsPair& nominal,
-                                          const std::vector<RmsPair>& plants,
-                                          const RatioAtSpeed& measured, double confidence) {
+std::optional<PredictedChange> predicted_change(const RmsPair& nominal,
+                                                const std::vector<RmsPair>& plants,
+                                                const RatioAtSpeed& measured, double confidence) {
   if (!std::isfinite(nominal.before * nominal.after)) return std::nullopt;
   std::vector<double> ratios;
   for (const RmsPair& one : plants) {
@@ -197,7 +197,7 @@ ChangeStudy study_change(const Mission& mission, const PlantEnsemble& ensemble,
   study.plants = plants.size();
   study.stable_plants =
       static_cast<std::size_t>(std::ranges::count(plants, true, &RmsPair::stable_after));
-  if (at) study.predicted = prediction(nominal, plants, *at, options.confidence);
+  if (at) study.predicted = predicted_change(nominal, plants, *at, options.confidence);
   study.checks = checks_of(study);
   return study;
 }

@@ -48,7 +48,7 @@ void describe_condition(io::Visitor& v, const design::ConditionInWind& condition
            "Circular mean; null if not recorded.");
   v.number("coherent_fraction", condition.explained, unit::ratio,
            "Fraction of the error's power that is coherent with the measured wind.");
-  v.number("coherent_by_chance", condition.explained_by_chance, unit::ratio,
+  v.number("coherent_threshold", condition.explained_threshold, unit::ratio,
            "Fraction that incoherent records exceed with a probability of 5 %.");
   v.list("records", condition.records, "As given.", [&](const design::WindyRecordFigures& record) {
     v.text("name", record.name, "Of its file.");

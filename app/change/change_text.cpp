@@ -200,10 +200,10 @@ Document evidence_part(const ChangeReport& report) {
   }
   text += wrapped(
       fmt::format("Coherent with the measured wind: {:.1f} % of the error's power before, {:.1f} % "
-                  "after (by chance up to {:.1f} and {:.1f} %).{}",
+                  "after (significant above {:.1f} and {:.1f} %).{}",
                   100.0 * comparison.before.explained, 100.0 * comparison.after.explained,
-                  100.0 * comparison.before.explained_by_chance,
-                  100.0 * comparison.after.explained_by_chance,
+                  100.0 * comparison.before.explained_threshold,
+                  100.0 * comparison.after.explained_threshold,
                   comparison.by_coherence
                       ? fmt::format(" That part alone, of the slow gusts: after/before {}.",
                                     band_text(*comparison.by_coherence))

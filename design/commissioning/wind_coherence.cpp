@@ -102,7 +102,7 @@ std::optional<RatioBand> coherent_ratio(const std::vector<CoherentSpectra>& befo
   if (std::min(before.size(), after.size()) < fewest_records) return std::nullopt;
   for (const auto* records : {&before, &after}) {
     const ExplainedPower explained = explained_power(*records);
-    if (explained.fraction <= explained.by_chance) return std::nullopt;
+    if (explained.fraction <= explained.threshold) return std::nullopt;
   }
   const Eigen::ArrayXd wind = sum_of(before, before.size()).wind + sum_of(after, after.size()).wind;
   const auto first = log_rms(before, wind);

@@ -24,13 +24,13 @@ CoherentSpectra coherent_spectra(const identification::SpectralMatrix& spectra, 
 /// Fraction of the errors' power that is coherent with the wind in all records together, reduced by
 /// its bias, within 0 .. 1; and the value that incoherent records exceed with probability 5 %.
 struct ExplainedPower {
-  double fraction = 0.0, by_chance = 0.0;
+  double fraction = 0.0, threshold = 0.0;
 };
 ExplainedPower explained_power(const std::vector<CoherentSpectra>& records);
 
 /// Ratio of the rms of the coherent parts, after over before, both in the mean spectrum of the wind
 /// of all records; see compare_in_wind. None with fewer than three records on a side, or without
-/// more coherence than by chance.
+/// significant coherence.
 std::optional<RatioBand> coherent_ratio(const std::vector<CoherentSpectra>& before,
                                         const std::vector<CoherentSpectra>& after,
                                         double confidence);

@@ -271,7 +271,7 @@ class Comparison {
       }
       const ExplainedPower explained = explained_power(all);
       condition(side).explained = explained.fraction;
-      condition(side).explained_by_chance = explained.by_chance;
+      condition(side).explained_threshold = explained.threshold;
     }
     result_.by_coherence = coherent_ratio(in_equal_wind[0], in_equal_wind[1], options_.confidence);
   }

@@ -51,7 +51,7 @@ struct ConditionInWind {
   double slowest = 0.0, fastest = 0.0;  // m/s, of the mean speeds
   /// Fraction of the error's power that is coherent with the square of the measured wind speed, and
   /// the fraction that records without any coherence exceed in one case of twenty.
-  double explained = 0.0, explained_by_chance = 0.0;
+  double explained = 0.0, explained_threshold = 0.0;
   /// rad, circular mean of the wind direction; absent if no record has it.
   std::optional<double> wind_direction;
 };
@@ -84,7 +84,7 @@ struct WindComparison {
   /// By regression only.
   std::optional<RatioAtSpeed> at_design;
   /// Ratio of the rms of the parts of the error that are coherent with the wind, in the same wind.
-  /// Absent unless both conditions have three records there and more coherence than by chance.
+  /// Absent unless both conditions have three records there and significant coherence.
   std::optional<RatioBand> by_coherence;
   /// Of the regression: exponent of the wind speed, of the gusts.
   double exponent = 0.0, gust_exponent = 0.0;

@@ -67,7 +67,7 @@ TEST(CompareInWind, FindsTheRatioOfTwoGainsAtEqualWind) {
   // The wind explains all of the error but what the squares fold together and short segments hide.
   EXPECT_NEAR(result.by_coherence->value, 0.6, 0.01);
   EXPECT_GT(result.before.explained, 0.9);
-  EXPECT_LT(result.before.explained_by_chance, 0.05);
+  EXPECT_LT(result.before.explained_threshold, 0.05);
 }
 
 TEST(CompareInWind, DoesNotDependOnUnitOrOrderAndInvertsWithTheSides) {
@@ -98,7 +98,7 @@ TEST(CompareInWind, FindsNoCoherenceWithAWindThatHasNone) {
     before[i].wind_speed = record_of(5.0 + 0.6 * static_cast<double>(i), 0.0, 500 + i).wind_speed;
   }
   const auto result = compare_in_wind(before, after);
-  EXPECT_LT(result.before.explained, 2.0 * result.before.explained_by_chance);
+  EXPECT_LT(result.before.explained, 2.0 * result.before.explained_threshold);
   EXPECT_GT(result.after.explained, 0.9);
   ASSERT_TRUE(result.at_reference);
   EXPECT_EQ(result.at_reference->change, Change::better);

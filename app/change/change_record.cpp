@@ -9,7 +9,10 @@ namespace {
 
 // Fits one sheet of A4 or letter paper.
 constexpr const char* style =
-    "@page{margin:14mm}body{font:9.5pt/1.35 sans-serif;max-width:182mm;margin:8mm auto;color:#111}"
+    "@page{margin:12mm}@media print{body{margin:0!important}}"
+    "#controllers{columns:2}#controllers h2{column-span:all}#controllers h3{break-after:avoid}"
+    "#controllers .table{break-inside:avoid}body{font:9pt/1.3 "
+    "sans-serif;max-width:182mm;margin:8mm auto;color:#111}"
     "h1{font-size:14pt;margin:0}h2{font-size:11pt;margin:3mm 0 1mm;border-bottom:.3mm solid #888}"
     "h3{font-size:9.5pt;margin:1.5mm 0 .5mm}p{margin:.8mm 0}table{border-collapse:collapse}"
     "th,td{padding:.4mm 2.5mm .4mm 0;text-align:left;font-weight:normal;vertical-align:top}"

@@ -184,7 +184,7 @@ Document evidence_part(const ChangeReport& report) {
                     std::string(to_string((*at)->change)) +
                         (extrapolated ? ", EXTRAPOLATED beyond the records" : "")});
   }
-  if (rows.size() > 1) text += essential(table(std::move(rows), "rlll"));
+  if (rows.size() > 1) text += essential(table(std::move(rows), "rllll"));
   text += wrapped(
       fmt::format("{} records before, {} after; {}. Rms of the {} from {:.3g} to {:.3g} Hz, with "
                   "{:g} % intervals.",

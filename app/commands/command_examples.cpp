@@ -53,10 +53,8 @@ const std::map<std::string, Examples, std::less<>>& all_examples() {
          "a long run that resumes from the file"}}},
       {"benchmark",
        {{"boresight benchmark case.toml", "the recommended controller"},
-        {"boresight benchmark case.toml --gains tuned.json --structure DPF+C --json score.json",
-         "a controller from a report of tune; the score sheet to a file"},
         {"boresight benchmark case.toml --controller mine.mat --compare score.json",
-         "another controller, compared with that"},
+         "another controller, compared with the score sheet of an earlier --json"},
         {"boresight benchmark case.toml --gains new.toml --before old/*.csv --after new/*.csv "
          "--change-record change.html",
          "records before and after a change compared at equal wind"}}},

@@ -35,8 +35,7 @@ int run(CommissionArguments arguments) {
   arguments.options.threads = all_or(arguments.options.threads);
   arguments.outputs.require_writable();
   if (!arguments.folder.empty()) {
-    io::require_writable(
-        (io::output_folder(arguments.folder, "sheets") / "sheets.html").string());
+    io::require_writable((io::output_folder(arguments.folder, "sheets") / "sheets.html").string());
   }
   watch_for_interrupt();
   try {
@@ -101,9 +100,10 @@ Subcommand add_commission(CLI::App& program) {
   sub->add_option("--plants", options.plants,
                   "also try every stage on this many fresh plants of the uncertainty set")
       ->check(CLI::Range(1, 1000000));
-  sub->add_option("--record", options.records,
-                  "STAGE FILE: judge a record of a stage that is done, and weigh the plants by it; "
-                  "may be repeated")
+  sub->add_option(
+         "--record", options.records,
+         "STAGE FILE: evaluate a record of a stage that is done, and update the uncertainty "
+         "set by it; may be repeated")
       ->type_name("STAGE FILE");
   sub->add_option("--before", options.before, "a record of the case made before the work");
   sub->add_option("--after", options.after, "a record made after it, to compare with --before");

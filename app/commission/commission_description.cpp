@@ -121,14 +121,14 @@ void describe_trial(io::Visitor& v, const design::StageTrial& trial) {
 
 void describe_fault(io::Visitor& v, const design::FaultTrial& trial) {
   v.text("fault", trial.fault, "what is wrong with the antenna");
-  v.count("stage", trial.caught ? std::optional(*trial.caught + 1) : std::nullopt,
-                  "number of the first stage that shows it; null: none does");
-  v.flag("stable", trial.caught ? std::optional(trial.judgement.stable) : std::nullopt,
+  v.count("stage", trial.detected ? std::optional(*trial.detected + 1) : std::nullopt,
+          "number of the first stage that shows it; null: none does");
+  v.flag("stable", trial.detected ? std::optional(trial.evaluation.stable) : std::nullopt,
          "in that stage");
-  v.text_or_null(
-      "quantity", trial.judgement.worst ? to_string(*trial.judgement.worst) : std::string_view(),
-      "that shows it; null: the loop oscillates, or no stage shows it");
-  v.number("value", trial.judgement.worst ? std::optional(trial.measured) : std::nullopt,
+  v.text_or_null("quantity",
+                 trial.evaluation.worst ? to_string(*trial.evaluation.worst) : std::string_view(),
+                 "that shows it; null: the loop oscillates, or no stage shows it");
+  v.number("value", trial.evaluation.worst ? std::optional(trial.measured) : std::nullopt,
            {.suffix = "SI"}, "of that quantity, at the motor");
 }
 
@@ -146,8 +146,8 @@ void describe_estimate(io::Visitor& v, std::string_view key, const design::Plant
 void describe_record(io::Visitor& v, const RecordedStage& record, const PlantUnits& units) {
   v.count("stage", record.stage + 1, "its number");
   v.text("file", record.file, "as given");
-  v.list("checks", record.judged, "what was measured, in the units of the antenna's computer",
-         [&](const design::JudgedQuantity& one) {
+  v.list("checks", record.evaluated, "what was measured, in the units of the antenna's computer",
+         [&](const design::EvaluatedQuantity& one) {
            const auto [name, factor] = unit_of(one.measured.quantity, units);
            const io::KeyUnit as_shown{.multiplier = factor};
            v.text("quantity", to_string(one.measured.quantity), "what it is");
@@ -157,16 +157,18 @@ void describe_record(io::Visitor& v, const RecordedStage& record, const PlantUni
            v.number("lower", one.expected.lower, as_shown, "passes from here");
            v.number("upper", one.expected.upper, as_shown, "to here");
            v.number("abort_above", one.abort, as_shown, "null: no limit of its own");
-           v.word("verdict", to_string(one.verdict),
-                  {to_string(design::StageVerdict::passes),
-                   to_string(design::StageVerdict::outside), to_string(design::StageVerdict::abort)},
-                  "of the stage, by this quantity");
+           v.word(
+               "verdict", to_string(one.verdict),
+               {to_string(design::StageVerdict::passes), to_string(design::StageVerdict::outside),
+                to_string(design::StageVerdict::abort)},
+               "of the stage, by this quantity");
          });
   v.texts("remarks", record.remarks, "of reading and measuring it");
 }
 
 void describe_update(io::Visitor& v, const design::PlantUpdate& update, const io::KeyUnit& sky) {
-  v.count("plants", update.plants, "of the uncertainty set, weighed by the records");
+  v.count("plants", update.plants,
+          "of the uncertainty set, each with the likelihood of the records");
   v.number("effective_plants", update.effective, unit::none, "equally likely ones that are left");
   v.count("quantities", update.quantities, "measured");
   v.number("mismatch", update.mismatch, unit::none,

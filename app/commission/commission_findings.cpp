@@ -23,8 +23,8 @@ std::string in_units(const CommissionReport& report, design::StageQuantity quant
 }
 
 std::string verdict_of(const RecordedStage& record) {
-  if (record.judged.empty()) return "not judged";
-  switch (worst_verdict(record.judged)) {
+  if (record.evaluated.empty()) return "not evaluated";
+  switch (worst_verdict(record.evaluated)) {
     case StageVerdict::passes:
       return "passes";
     case StageVerdict::outside:
@@ -36,27 +36,27 @@ std::string verdict_of(const RecordedStage& record) {
 }
 
 std::string estimate(const design::PlantEstimate& value, double unit, const char* form) {
-  const auto text = [&](double number) {
-    return fmt::format(fmt::runtime(form), number / unit);
-  };
+  const auto text = [&](double number) { return fmt::format(fmt::runtime(form), number / unit); };
   return fmt::format("{} ({} to {})", text(value.mean), text(value.lower), text(value.upper));
 }
 
 // A fault and the stage that shows it.
-std::vector<std::string> fault_row(const CommissionReport& report, const design::FaultTrial& trial) {
-  if (!trial.caught) return {trial.fault, "none", "passes every stage: none depends on it"};
-  const auto& stage = report.sheets[*trial.caught].stage;
+std::vector<std::string> fault_row(const CommissionReport& report,
+                                   const design::FaultTrial& trial) {
+  if (!trial.detected) return {trial.fault, "none", "passes every stage: none depends on it"};
+  const auto& stage = report.sheets[*trial.detected].stage;
   std::string shows = "oscillates";
-  if (trial.judgement.worst) {
-    const auto interval = pass_interval(*trial.judgement.worst, stage, report.options.rms_allowance);
-    const QuantityUnit unit = unit_of(*trial.judgement.worst, report.units);
-    shows = fmt::format("{} {}, expected {} to {}{}", to_string(*trial.judgement.worst),
-                        in_units(report, *trial.judgement.worst, trial.measured),
+  if (trial.evaluation.worst) {
+    const auto interval =
+        pass_interval(*trial.evaluation.worst, stage, report.options.rms_allowance);
+    const QuantityUnit unit = unit_of(*trial.evaluation.worst, report.units);
+    shows = fmt::format("{} {}, expected {} to {}{}", to_string(*trial.evaluation.worst),
+                        in_units(report, *trial.evaluation.worst, trial.measured),
                         checked_number(unit.factor * interval.lower),
                         checked_number(unit.factor * interval.upper),
-                        trial.judgement.verdict == StageVerdict::abort ? ": abort" : "");
+                        trial.evaluation.verdict == StageVerdict::abort ? ": abort" : "");
   }
-  return {trial.fault, fmt::format("{} {}", *trial.caught + 1, stage_name(stage)), shows};
+  return {trial.fault, fmt::format("{} {}", *trial.detected + 1, stage_name(stage)), shows};
 }
 
 }  // namespace
@@ -70,8 +70,9 @@ std::string stage_name(const design::CommissioningStage& stage) {
 std::string command_in_words(const CommissionReport& report, const StageSheet& sheet) {
   const double sky = report.gear_ratio * millidegree;
   if (sheet.stage.controller.feedforward) {
-    return fmt::format("move up to {:.3g} mdeg/s in {:.3g} s, steady, and down again",
-                       report.move.rate / sky, report.move.rate / report.move.acceleration);
+    return fmt::format(
+        "from a slow steady motion, faster by {:.3g} mdeg/s within {:.3g} s, steady, and back",
+        report.move.rate / sky, report.move.rate / report.move.acceleration);
   }
   const bool open = sheet.stage.controller.position_open;
   return fmt::format("step of the {} command, {:.3g} mdeg{} at the sky", open ? "rate" : "position",
@@ -84,7 +85,7 @@ std::vector<std::string> about_records(const CommissionReport& report) {
     std::string text =
         fmt::format("Stage {} ({}), {}: {}", record.stage + 1,
                     stage_name(report.sheets[record.stage].stage), record.file, verdict_of(record));
-    for (const auto& one : record.judged) {
+    for (const auto& one : record.evaluated) {
       if (one.verdict == StageVerdict::passes) continue;
       const QuantityUnit unit = unit_of(one.measured.quantity, report.units);
       text += fmt::format("; {} {}, expected {} to {}", to_string(one.measured.quantity),
@@ -139,10 +140,11 @@ std::vector<std::string> about_trials(const CommissionReport& report) {
         percentage(aborted, first.plants)));
   }
   if (!report.faults.empty()) {
-    const auto caught = std::ranges::count_if(
-        report.faults, [](const design::FaultTrial& trial) { return trial.caught.has_value(); });
-    sentences.push_back(fmt::format("The stages catch {} of {} usual faults of scale, sign and build.",
-                                    caught, report.faults.size()));
+    const auto detected = std::ranges::count_if(
+        report.faults, [](const design::FaultTrial& trial) { return trial.detected.has_value(); });
+    sentences.push_back(
+        fmt::format("The stages detect {} of {} usual faults of scale, sign and build.", detected,
+                    report.faults.size()));
   }
   return sentences;
 }
@@ -164,9 +166,9 @@ Document trials_part(const CommissionReport& report) {
     text += essential(table(rows, "rlrrrl"));
   }
   if (!report.faults.empty()) {
-    Rows rows{{"fault", "caught at stage", "which shows"}};
+    Rows rows{{"fault", "detected at stage", "which shows"}};
     for (const auto& trial : report.faults) rows.push_back(fault_row(report, trial));
-    text += heading("What a wrong antenna would show");
+    text += heading("Faults that the stages detect");
     text += table(rows, "lll");
     text += wrapped("Each fault alone, on the nominal plant; later stages are not run.", "  ");
   }
@@ -179,7 +181,7 @@ Document records_part(const CommissionReport& report) {
   for (const RecordedStage& record : report.records) {
     Rows rows{{fmt::format("stage {}", record.stage + 1), "unit", "measured", "+-", "from", "to",
                "abort above", "verdict"}};
-    for (const auto& one : record.judged) {
+    for (const auto& one : record.evaluated) {
       const auto [unit, factor] = unit_of(one.measured.quantity, report.units);
       rows.push_back({std::string(to_string(one.measured.quantity)), unit,
                       checked_number(factor * one.measured.value),

@@ -67,13 +67,12 @@ std::string sheets_csv(const CommissionReport& report) {
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const StageSheet& stage = report.sheets[i];
     for (const auto& check : stage.checks) {
-      text += fmt::format("{},{},{},{},{},{},{:.9g},{:.9g},{:.9g},{},,,,\n", i + 1,
-                          quoted(stage_name(stage.stage)),
-                          stage.stage.controller.position_open ? "open" : "closed",
-                          quoted(command_in_words(report, stage)),
-                          quoted(std::string(to_string(check.quantity))), quoted(check.unit),
-                          check.expected, check.lower, check.upper,
-                          check.abort_above ? fmt::format("{:.9g}", *check.abort_above) : "");
+      text += fmt::format(
+          "{},{},{},{},{},{},{:.9g},{:.9g},{:.9g},{},,,,\n", i + 1, quoted(stage_name(stage.stage)),
+          stage.stage.controller.position_open ? "open" : "closed",
+          quoted(command_in_words(report, stage)), quoted(std::string(to_string(check.quantity))),
+          quoted(check.unit), check.expected, check.lower, check.upper,
+          check.abort_above ? fmt::format("{:.9g}", *check.abort_above) : "");
     }
   }
   return text;
@@ -104,8 +103,8 @@ Page commission_sheets(const CommissionReport& report) {
 std::vector<io::CodeFile> commission_files(const CommissionReport& report) {
   std::vector<io::CodeFile> files{{"sheets.csv", sheets_csv(report)}};
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
-    io::CodeFile file = io::controller_to_read(report.sheets[i].stage.controller.controller,
-                                               report.structure);
+    io::CodeFile file =
+        io::controller_to_read(report.sheets[i].stage.controller.controller, report.structure);
     file.name = fmt::format("stage_{:02}_{}", i + 1, file.name);
     files.push_back(std::move(file));
   }

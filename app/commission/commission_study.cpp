@@ -123,12 +123,12 @@ std::vector<RecordedStage> read_records(const io::Case& antenna, const Commissio
   return stages;
 }
 
-void judge_records(const io::DesignedAntenna& designed, const CommissionOptions& options,
-                   const std::vector<design::AntennaFault>& faults,
-                   const std::vector<identification::ServoRecord>& records,
-                   CommissionReport& report) {
-  // Plants of which as many as they say are left after a few stages.
-  constexpr std::size_t weighed = 400;
+void evaluate_records(const io::DesignedAntenna& designed, const CommissionOptions& options,
+                      const std::vector<design::AntennaFault>& faults,
+                      const std::vector<identification::ServoRecord>& records,
+                      CommissionReport& report) {
+  // More are drawn where the records leave few of them.
+  constexpr std::size_t plants = 400;
   std::vector<design::MeasuredStage> measured;
   std::size_t quantities = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
@@ -139,7 +139,7 @@ void judge_records(const io::DesignedAntenna& designed, const CommissionOptions&
     }
     const auto& stage = report.plan.stages[record.stage];
     record.measurement = measure_stage(records[i], stage, report.gear_ratio);
-    record.judged = judge(record.measurement, stage, report.options.rms_allowance);
+    record.evaluated = evaluated(record.measurement, stage, report.options.rms_allowance);
     std::ranges::copy(record.measurement.remarks, std::back_inserter(record.remarks));
     quantities += record.measurement.quantities.size();
     measured.push_back({record.stage, record.measurement});
@@ -147,7 +147,7 @@ void judge_records(const io::DesignedAntenna& designed, const CommissionOptions&
   if (quantities == 0) return;
   report.update =
       updated_plants(designed.mission, designed.distribution, report.plan, report.move, measured,
-                     faults, weighed, trial_options(options, report, "weighing plants"));
+                     faults, plants, trial_options(options, report, "updating plants"));
 }
 
 }  // namespace
@@ -220,7 +220,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
           try_stages(designed.mission, designed.distribution, report.plan, report.move,
                      options.plants, trial_options(options, report, "trying fresh plants"));
     }
-    judge_records(designed, options, faults, records, report);
+    evaluate_records(designed, options, faults, records, report);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);
   } catch (const NumericalFailure& error) {

@@ -34,11 +34,11 @@ struct CommissionOptions {
   /// tuned.
   std::vector<std::string> gains;
   std::string controller_path;  // of a state space instead of gains; empty: none
-  double largest_step = 2.0;  // factor on a gain from stage to stage
-  int starts = 0;             // of the tuning; 0: as the case has it
+  double largest_step = 2.0;    // factor on a gain from stage to stage
+  int starts = 0;               // of the tuning; 0: as the case has it
   std::uint64_t seed = 1;
   unsigned threads = 1;
-  std::size_t plants = 0;       // fresh ones to try the stages on; 0: none
+  std::size_t plants = 0;  // fresh ones to try the stages on; 0: none
   /// Stages that are done, by their number from 1, and the file of the record of each.
   std::vector<std::pair<std::size_t, std::string>> records;
   /// Names of records of the case, both or none.
@@ -59,11 +59,11 @@ struct StageGain {
 /// One stage as an engineer reads it.
 struct StageSheet {
   design::CommissioningStage stage;
-  std::vector<StageGain> gains;     // those that act
-  double step = 0.0;                // of the command to make: rad/s or rad at the sky, within saturation
-  std::vector<StageCheck> checks;   // what to measure
-  std::string reserve;              // what the abort limits leave of the loop gain
-  std::string way_back;             // beyond an abort limit
+  std::vector<StageGain> gains;  // those that act
+  double step = 0.0;  // of the command to make: rad/s or rad at the sky, within saturation
+  std::vector<StageCheck> checks;  // what to measure
+  std::string reserve;             // what the abort limits leave of the loop gain
+  std::string way_back;            // beyond an abort limit
 };
 
 /// The record of a stage that is done.
@@ -71,7 +71,7 @@ struct RecordedStage {
   std::size_t stage = 0;  // index of the sheets
   std::string file;
   design::StageMeasurement measurement;
-  std::vector<design::JudgedQuantity> judged;
+  std::vector<design::EvaluatedQuantity> evaluated;
   std::vector<std::string> remarks;  // of reading and measuring it
 };
 
@@ -115,13 +115,13 @@ struct CommissionReport {
 };
 
 /// Plans the path to the recommended controller (study_controllers), or to the given one. Tries
-/// the stages on fresh plants and on antennas with usual_faults, judges records of stages that are
-/// done, and compares two records, where requested.
+/// the stages on fresh plants and on antennas with usual_faults, evaluates records of stages that
+/// are done, and compares two records, where requested.
 /// @throws InvalidInput for an unknown structure, unknown gains, missing records or a record of a
 /// stage that the plan does not have; Interrupted.
 /// InfeasibleRequirement if no controller of the structure is recommended and meets the constraints
-/// on every plant, or no path to it was found. NumericalFailure. With compared records, the report holds the last two
-/// errors instead.
+/// on every plant, or no path to it was found. NumericalFailure. With compared records, the report
+/// holds the last two errors instead.
 CommissionReport plan_commission(const io::DesignedAntenna& designed,
                                  const CommissionOptions& options);
 

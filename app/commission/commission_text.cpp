@@ -162,18 +162,22 @@ Document plan_part(const CommissionReport& report) {
   }
   for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");
   text += wrapped(
-      fmt::format("Values hold for the linear plant: make steps from a slow steady motion, clear "
-                  "of breakaway, in still air. Keep them within the stated size (a fifth of valve "
-                  "stroke and supply torque). The move: up to {:.3g} mdeg/s in {:.3g} s, steady, "
-                  "and down again. Rms values in still air assume the case's sensor noise: compare "
-                  "the first stage with a record and scale the others.",
-                  report.move.rate / (report.gear_ratio * millidegree),
-                  report.move.rate / report.move.acceleration),
+      fmt::format(
+          "Values hold for the linear plant: make steps from a slow steady motion, clear "
+          "of breakaway, in still air. Keep them within the stated size (a fifth of valve "
+          "stroke and supply torque). The move: from a slow steady motion, faster by {:.3g} mdeg/s "
+          "within {:.3g} s, steady, and back. Rms values in still air assume the case's sensor "
+          "noise: compare "
+          "the first stage with a record and scale the others.",
+          report.move.rate / (report.gear_ratio * millidegree),
+          report.move.rate / report.move.acceleration),
       "  ");
   text += essential(wrapped(
       fmt::format(
-          "A stage passes when every value lies within its brackets, which for an rms are {:g} times "
-          "wider than over the plants. Go back when one exceeds its abort limit: for an overshoot {:.0f} % of the step "
+          "A stage passes when every value lies within its brackets, which for an rms are {:g} "
+          "times "
+          "wider than over the plants. Go back when one exceeds its abort limit: for an overshoot "
+          "{:.0f} % of the step "
           "above the brackets, for an rms at their end, or less where the worst plant's Ms would "
           "be {:g}, or on any ringing that does not decay. Between the two, find the cause first.",
           report.options.rms_allowance, 100.0 * report.options.overshoot_allowance,

@@ -228,8 +228,8 @@ std::optional<Figure> stage_bode_figure(const CommissionReport& report, std::siz
   };
   figure.panels.push_back(panel(make_axis("gain", "dB"), bode.gain,
                                 [](double gain) { return 20.0 * std::log10(gain); }));
-  figure.panels.push_back(panel(make_axis("phase", "deg"), bode.phase,
-                                [](double phase) { return phase / degree; }));
+  figure.panels.push_back(
+      panel(make_axis("phase", "deg"), bode.phase, [](double phase) { return phase / degree; }));
   return figure;
 }
 

@@ -28,8 +28,7 @@ plant::StateSpace rate_command_loop(const plant::StateSpace& plant, const Contro
   plant::StateSpace state_space = rate_loop_controller(controller);
   rename_input(state_space, "tachometer", "rate_less_command");
   return plant::connect(
-      {plant,
-       weighted_sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), state_space,
+      {plant, weighted_sum(1.0, "tachometer", -1.0, "command", "rate_less_command"), state_space,
        delay_approximant(delay, delay_order, "valve_demand", "valve_command")},
       {"command", "wind_torque"}, {"tachometer", "motor_torque", "valve_demand"});
 }
@@ -49,8 +48,7 @@ plant::StateSpace position_command_loop(const plant::StateSpace& plant,
     if (controller.structure.feeds_torque_back()) read.emplace_back("motor_torque");
     state_space = plant::subsystem(state_space, read, {"valve_demand"});
     rename_input(state_space, "tachometer", "rate_less_command");
-    parts.push_back(
-        weighted_sum(1.0, "tachometer", -1.0, "rate_disturbance", "rate_less_command"));
+    parts.push_back(weighted_sum(1.0, "tachometer", -1.0, "rate_disturbance", "rate_less_command"));
     if (controller.structure.feeds_torque_back()) {
       rename_input(state_space, "motor_torque", "torque_less_command");
       parts.push_back(

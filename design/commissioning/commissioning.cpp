@@ -162,7 +162,8 @@ class Plants {
         std::min(bode_reach * crossover, control::nyquist_frequency(controller.controller));
     StageBode result;
     const Eigen::ArrayXd frequency =
-        Eigen::ArrayXd::LinSpaced(bode_points, std::log(crossover / bode_reach), std::log(highest)).exp();
+        Eigen::ArrayXd::LinSpaced(bode_points, std::log(crossover / bode_reach), std::log(highest))
+            .exp();
     std::vector<Eigen::ArrayXcd> responses(observers_.size());
     each([&](std::size_t i) { responses[i] = observers_[i].response(controller, frequency); });
     std::vector<double> before(observers_.size(), 0.0);

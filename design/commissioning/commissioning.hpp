@@ -72,7 +72,7 @@ struct StageExpectation {
 /// The closed loop from the stage's command to what is recorded of it (StageObserver::response).
 /// Empty where a plant is unstable.
 struct StageBode {
-  std::vector<double> frequency;  // rad/s
+  std::vector<double> frequency;       // rad/s
   std::vector<PlantBand> gain, phase;  // phase in rad, without jumps of a turn
 };
 

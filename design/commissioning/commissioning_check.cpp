@@ -240,8 +240,8 @@ void StageObserver::observe_move(const StageController& stage, StageObservation&
     input(k, 2) =
         forward.rate_to_valve_command * rate + forward.acceleration_to_valve_command * acceleration;
     if (inputs > torque) {
-      input(k, torque) = forward.rate_to_motor_torque * rate +
-                         forward.acceleration_to_motor_torque * acceleration;
+      input(k, torque) =
+          forward.rate_to_motor_torque * rate + forward.acceleration_to_motor_torque * acceleration;
     }
   }
   plant::LinearSimulation simulation(loop, step,
@@ -316,10 +316,9 @@ StageObserver::Verdict StageObserver::verdict(const StageController& stage) {
   result.peak = peak(stage);
   // The residue is of both loops: of an open one only the encirclements are compared with the
   // eigenvalues.
-  result.abscissa =
-      stage.position_open
-          ? by_eigenvalues.rate_loop_abscissa
-          : std::max(by_eigenvalues.rate_loop_abscissa, by_eigenvalues.closed_loop_abscissa);
+  result.abscissa = stage.position_open ? by_eigenvalues.rate_loop_abscissa
+                                        : std::max(by_eigenvalues.rate_loop_abscissa,
+                                                   by_eigenvalues.closed_loop_abscissa);
   result.stable = result.abscissa < 0.0 && std::isfinite(result.peak) &&
                   (stage.position_open || by_eigenvalues.dead_time_residue < 1.0);
   return result;

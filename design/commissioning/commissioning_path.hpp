@@ -39,7 +39,8 @@ std::optional<std::vector<PathStage>> commissioning_path(
     const std::function<bool(const StageController&)>& allowed, std::string& why_not);
 
 /// The same to a state space, by factors on its output that rise to 1, each by the largest step,
-/// with feedforward throughout. The first is the least that can be raised so, a quarter or the next step below it at the lowest.
+/// with feedforward throughout. The first is the least that can be raised so, a quarter or the next
+/// step below it at the lowest.
 std::optional<std::vector<PathStage>> output_path(
     const control::Controller& target, double largest_step,
     const std::function<bool(const StageController&)>& allowed, std::string& why_not);

@@ -26,7 +26,7 @@ Outcome outcome_of(const StageObservation& seen, const CommissioningStage& stage
                    double rms_allowance) {
   Outcome outcome;
   outcome.stable = seen.stable;
-  outcome.verdict = judge(seen, stage, rms_allowance).verdict;
+  outcome.verdict = evaluated(seen, stage, rms_allowance).verdict;
   if (!seen.stable) return outcome;
   for (const StageQuantity quantity : measured_quantities(stage)) {
     if (verdict_on(quantity, value_of(quantity, seen), 0.0, stage, rms_allowance) !=
@@ -129,18 +129,18 @@ std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPl
     const AntennaFault& fault = faults[i];
     FaultTrial& trial = trials[i];
     trial.fault = fault.name;
-    StageObserver observer(
-        problem, plant::linear_plant(plant::changed(mission.antenna, fault.changes)), wind, move,
-        fault.factors);
-    for (std::size_t k = 0; k < plan.stages.size() && !trial.caught; ++k) {
+    StageObserver observer(problem,
+                           plant::linear_plant(plant::changed(mission.antenna, fault.changes)),
+                           wind, move, fault.factors);
+    for (std::size_t k = 0; k < plan.stages.size() && !trial.detected; ++k) {
       const CommissioningStage& stage = plan.stages[k];
       if (stage.kind == StageKind::as_found) continue;
       const StageObservation seen = observer.observe(stage.controller);
-      const StageJudgement judgement = judge(seen, stage, options.rms_allowance);
-      if (judgement.verdict == StageVerdict::passes) continue;
-      trial.caught = k;
-      trial.judgement = judgement;
-      if (judgement.worst) trial.measured = value_of(*judgement.worst, seen);
+      const StageEvaluation evaluation = evaluated(seen, stage, options.rms_allowance);
+      if (evaluation.verdict == StageVerdict::passes) continue;
+      trial.detected = k;
+      trial.evaluation = evaluation;
+      if (evaluation.worst) trial.measured = value_of(*evaluation.worst, seen);
     }
   });
   return trials;

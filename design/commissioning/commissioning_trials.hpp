@@ -59,9 +59,9 @@ std::vector<AntennaFault> usual_faults(double motors, bool feeds_torque_back);
 struct FaultTrial {
   std::string fault;
   /// Index of the stage that shows it: its verdict is not passes. None: no stage does.
-  std::optional<std::size_t> caught;
-  StageJudgement judgement;  // of that stage
-  double measured = 0.0;     // what it shows of judgement.worst
+  std::optional<std::size_t> detected;
+  StageEvaluation evaluation;  // of that stage
+  double measured = 0.0;       // what it shows of evaluation.worst
 };
 
 /// Runs the stages, but for the one as found, on the antenna with each fault. What is shown is the

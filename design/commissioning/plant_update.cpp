@@ -78,16 +78,17 @@ struct Drawn {
 void check(const CommissioningPlan& plan, const std::vector<MeasuredStage>& records,
            std::size_t quantities, std::size_t count) {
   if (count < fewest_plants) {
-    throw InvalidInput(fmt::format("updated_plants: expected at least {} plants, found {}",
-                                   fewest_plants, count));
+    throw InvalidInput(
+        fmt::format("updated_plants: expected at least {} plants, found {}", fewest_plants, count));
   }
   if (quantities == 0) {
     throw InvalidInput("updated_plants: expected at least one measured quantity, found none");
   }
   for (const MeasuredStage& record : records) {
     if (record.stage < plan.stages.size()) continue;
-    throw InvalidInput(fmt::format("updated_plants: expected a stage of the {} of the plan, found {}",
-                                   plan.stages.size(), record.stage + 1));
+    throw InvalidInput(
+        fmt::format("updated_plants: expected a stage of the {} of the plan, found {}",
+                    plan.stages.size(), record.stage + 1));
   }
 }
 
@@ -185,9 +186,8 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
   }
   update.plants = drawn.size();
   update.mismatch = least_mismatch(drawn);
-  update.explained =
-      update.mismatch <=
-      numerics::chi_squared_quantile(certainty, static_cast<double>(update.quantities));
+  update.explained = update.mismatch <= numerics::chi_squared_quantile(
+                                            certainty, static_cast<double>(update.quantities));
   if (!update.explained) {
     std::vector<double> mismatches(faults.size());
     numerics::for_each_index(faults.size(), options.threads, [&](std::size_t i) {

@@ -34,8 +34,8 @@ struct FaultFit {
 
 /// The uncertainty set in the light of the records.
 struct PlantUpdate {
-  std::size_t plants = 0;     // drawn
-  double effective = 0.0;     // 1/sum of squared weights: as many equally likely plants are left
+  std::size_t plants = 0;      // drawn
+  double effective = 0.0;      // 1/sum of squared weights: as many equally likely plants are left
   std::size_t quantities = 0;  // measured
   /// Sum over the quantities of (measured less predicted, over its standard deviation)^2, of the
   /// plant that fits best.
@@ -55,9 +55,10 @@ struct PlantUpdate {
 double comparison_deviation(const MeasuredQuantity& measured);
 
 /// Weighs `count` plants of the distribution by the likelihood of the records, each quantity normal
-/// and independent of the others; twice as many again, up to 16 times, while fewer than 40 effective
-/// ones are left. The same for any number of threads. Takes 20 ms per plant and recorded stage. @throws InvalidInput for fewer than 20 plants, no quantities, or a stage that
-/// the plan does not have; as plant::changed; Interrupted.
+/// and independent of the others; twice as many again, up to 16 times, while fewer than 40
+/// effective ones are left. The same for any number of threads. Takes 20 ms per plant and recorded
+/// stage. @throws InvalidInput for fewer than 20 plants, no quantities, or a stage that the plan
+/// does not have; as plant::changed; Interrupted.
 PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& distribution,
                            const CommissioningPlan& plan, const CommandedMove& move,
                            const std::vector<MeasuredStage>& records,

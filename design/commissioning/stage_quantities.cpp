@@ -15,10 +15,13 @@ bool is_rms(StageQuantity quantity) {
 }  // namespace
 
 std::string_view to_string(StageQuantity quantity) {
-  static constexpr std::array names{
-      "rise time 10 to 90 %",     "overshoot",          "settling time into 5 %",
-      "valve command, still air", "tachometer, still air", "encoder error, still air",
-      "largest encoder error of the move"};
+  static constexpr std::array names{"rise time 10 to 90 %",
+                                    "overshoot",
+                                    "settling time into 5 %",
+                                    "valve command, still air",
+                                    "tachometer, still air",
+                                    "encoder error, still air",
+                                    "largest encoder error of the move"};
   return names.at(static_cast<std::size_t>(quantity));
 }
 
@@ -115,19 +118,19 @@ StageVerdict verdict_on(StageQuantity quantity, double value, double uncertainty
              : StageVerdict::outside;
 }
 
-StageJudgement judge(const StageObservation& seen, const CommissioningStage& stage,
-                     double rms_allowance) {
+StageEvaluation evaluated(const StageObservation& seen, const CommissioningStage& stage,
+                          double rms_allowance) {
   if (!seen.stable) return {StageVerdict::abort, false, std::nullopt};
-  StageJudgement judgement;
+  StageEvaluation evaluation;
   for (const StageQuantity quantity : measured_quantities(stage)) {
     const StageVerdict verdict =
         verdict_on(quantity, value_of(quantity, seen), 0.0, stage, rms_allowance);
-    if (verdict > judgement.verdict) {
-      judgement.verdict = verdict;
-      judgement.worst = quantity;
+    if (verdict > evaluation.verdict) {
+      evaluation.verdict = verdict;
+      evaluation.worst = quantity;
     }
   }
-  return judgement;
+  return evaluation;
 }
 
 }  // namespace boresight::design

@@ -55,12 +55,12 @@ StageVerdict verdict_on(StageQuantity quantity, double value, double uncertainty
                         const CommissioningStage& stage, double rms_allowance);
 
 /// The verdict on all quantities that a plant shows in a stage, the worst of them, and which it is.
-struct StageJudgement {
+struct StageEvaluation {
   StageVerdict verdict = StageVerdict::passes;
   bool stable = true;
   std::optional<StageQuantity> worst;  // of a verdict that is not passes; none: unstable
 };
-StageJudgement judge(const StageObservation& seen, const CommissioningStage& stage,
-                     double rms_allowance);
+StageEvaluation evaluated(const StageObservation& seen, const CommissioningStage& stage,
+                          double rms_allowance);
 
 }  // namespace boresight::design

@@ -45,14 +45,14 @@ Line line_through(const Eigen::Ref<const VectorXd>& values) {
 
 VectorXd without_line(const VectorXd& values) {
   const Line line = line_through(values);
-  return values -
-         VectorXd::LinSpaced(values.size(), line.start,
-                             line.at(static_cast<double>(values.size() - 1)));
+  return values - VectorXd::LinSpaced(values.size(), line.start,
+                                      line.at(static_cast<double>(values.size() - 1)));
 }
 
 // Samples at which the command has a new value.
 std::vector<Index> steps_of(const VectorXd& command) {
-  VectorXd change = (command.tail(command.size() - 1) - command.head(command.size() - 1)).cwiseAbs();
+  VectorXd change =
+      (command.tail(command.size() - 1) - command.head(command.size() - 1)).cwiseAbs();
   const double largest = change.maxCoeff();
   VectorXd sorted = change;
   std::ranges::nth_element(sorted, sorted.begin() + sorted.size() / 2);
@@ -143,8 +143,8 @@ StepFigures figures_of(const VectorXd& response, double sample_time) {
   StepFigures figures;
   const auto rough = rise_time(response, sample_time);
   const auto smooth_over = [&](double rise_times) {
-    return smoothed(response, rough ? static_cast<Index>(0.5 * rise_times * *rough / sample_time)
-                                    : Index{0});
+    return smoothed(response,
+                    rough ? static_cast<Index>(0.5 * rise_times * *rough / sample_time) : Index{0});
   };
   const VectorXd smooth = smooth_over(smoothing);
   figures.rise = rise_time(smooth, sample_time);
@@ -196,22 +196,25 @@ void measure_steps(const VectorXd& command, const VectorXd& response,
   const double noise = responses.noise / std::sqrt(count);
   const auto add = [&](StageQuantity quantity, double value, const auto& figure, double by_noise) {
     measurement.quantities.push_back(
-        {quantity, value,
-         std::max(uncertainty_of(responses, sample_time, figure, by_noise), 0.0), averaged});
+        {quantity, value, std::max(uncertainty_of(responses, sample_time, figure, by_noise), 0.0),
+         averaged});
   };
   if (!figures.rise) {
     measurement.remarks.emplace_back("the response does not reach 90 % of the step");
     return;
   }
   // Both ends are read to half a sample, and at the slope 0.8/rise.
-  const double by_noise = std::hypot(noise * *figures.rise / 0.8 * std::sqrt(2.0),
-                                     0.5 * sample_time);
-  add(StageQuantity::rise_time, *figures.rise,
-      [](const StepFigures& one) { return one.rise; }, by_noise);
-  add(StageQuantity::overshoot, figures.overshoot,
+  const double by_noise =
+      std::hypot(noise * *figures.rise / 0.8 * std::sqrt(2.0), 0.5 * sample_time);
+  add(
+      StageQuantity::rise_time, *figures.rise, [](const StepFigures& one) { return one.rise; },
+      by_noise);
+  add(
+      StageQuantity::overshoot, figures.overshoot,
       [](const StepFigures& one) { return std::optional(one.overshoot); }, noise);
   if (figures.settling) {
-    add(StageQuantity::settling_time, *figures.settling,
+    add(
+        StageQuantity::settling_time, *figures.settling,
         [](const StepFigures& one) { return one.settling; }, by_noise);
   } else {
     measurement.remarks.emplace_back(
@@ -226,8 +229,8 @@ double relative_uncertainty(const VectorXd& values) {
   if (!(variance > 0.0)) return 0.0;
   double sum = 1.0;
   for (Index lag = 1; lag < n / 4; ++lag) {
-    const double correlation = values.head(n - lag).dot(values.tail(n - lag)) /
-                               (static_cast<double>(n - lag) * variance);
+    const double correlation =
+        values.head(n - lag).dot(values.tail(n - lag)) / (static_cast<double>(n - lag) * variance);
     // From here on it is noise of the estimate.
     if (correlation < 0.05) break;
     sum += 2.0 * correlation * correlation;
@@ -238,8 +241,7 @@ double relative_uncertainty(const VectorXd& values) {
 void measure_rms(StageQuantity quantity, const std::optional<Signal>& signal, double scale,
                  StageMeasurement& measurement) {
   if (!signal) {
-    measurement.remarks.push_back(
-        fmt::format("no channel for the {}", to_string(quantity)));
+    measurement.remarks.push_back(fmt::format("no channel for the {}", to_string(quantity)));
     return;
   }
   const VectorXd values = without_line(signal->values);
@@ -285,7 +287,9 @@ StageMeasurement measure_stage(const ServoRecord& record, const CommissioningSta
   } else if (predicts(stage, StageQuantity::move_error) && command && record.position_error &&
              without_line(command->values).cwiseAbs().maxCoeff() >
                  10.0 * record.position_error->values.cwiseAbs().maxCoeff()) {
-    const VectorXd& error = record.position_error->values;
+    // About what was there before the move: a static error is none of the motion.
+    const VectorXd& whole = record.position_error->values;
+    const VectorXd error = whole.array() - whole.head(whole.size() / 20).mean();
     measurement.quantities.push_back({StageQuantity::move_error,
                                       gear_ratio * error.cwiseAbs().maxCoeff(),
                                       gear_ratio * error.tail(error.size() / 10).norm() /
@@ -302,26 +306,26 @@ StageMeasurement measure_stage(const ServoRecord& record, const CommissioningSta
   std::erase_if(measurement.quantities, [&](const MeasuredQuantity& one) {
     if (predicts(stage, one.quantity)) return false;
     measurement.remarks.push_back(
-        fmt::format("the stage predicts no {}: it is not judged", to_string(one.quantity)));
+        fmt::format("the stage predicts no {}: it is not evaluated", to_string(one.quantity)));
     return true;
   });
   return measurement;
 }
 
-std::vector<JudgedQuantity> judge(const StageMeasurement& measurement,
-                                  const CommissioningStage& stage, double rms_allowance) {
-  std::vector<JudgedQuantity> judged;
+std::vector<EvaluatedQuantity> evaluated(const StageMeasurement& measurement,
+                                         const CommissioningStage& stage, double rms_allowance) {
+  std::vector<EvaluatedQuantity> result;
   for (const MeasuredQuantity& one : measurement.quantities) {
-    judged.push_back(
-        {one, pass_interval(one.quantity, stage, rms_allowance), abort_limit(one.quantity, stage),
-         verdict_on(one.quantity, one.value, one.uncertainty, stage, rms_allowance)});
+    result.push_back({one, pass_interval(one.quantity, stage, rms_allowance),
+                      abort_limit(one.quantity, stage),
+                      verdict_on(one.quantity, one.value, one.uncertainty, stage, rms_allowance)});
   }
-  return judged;
+  return result;
 }
 
-StageVerdict worst_verdict(const std::vector<JudgedQuantity>& judged) {
+StageVerdict worst_verdict(const std::vector<EvaluatedQuantity>& quantities) {
   StageVerdict worst = StageVerdict::passes;
-  for (const JudgedQuantity& one : judged) worst = std::max(worst, one.verdict);
+  for (const EvaluatedQuantity& one : quantities) worst = std::max(worst, one.verdict);
   return worst;
 }
 

@@ -31,14 +31,15 @@ struct StageMeasurement {
 /// and encoder with it closed) gives rise time, overshoot and settling time. The step may start
 /// from a steady motion: a straight line through what is before it, up to the step's own length, is
 /// taken off command and response. The responses, over their steps, are averaged, and smoothed over
-/// a fifteenth of the rise time, as the largest value of a noisy one is too large; for settling over
-/// half of it. A step lasts to the next; settling that takes longer is not measured. The uncertainty is that of the mean of the
-/// single steps, or, of one step, that of the noise before it.
-/// A command that does not step, or none, gives the rms in still air: of valve command, of
+/// a fifteenth of the rise time, as the largest value of a noisy one is too large; for settling
+/// over half of it. A step lasts to the next; settling that takes longer is not measured. The
+/// uncertainty is that of the mean of the single steps, or, of one step, that of the noise before
+/// it. A command that does not step, or none, gives the rms in still air: of valve command, of
 /// tachometer or encoder error, about a straight line. Its uncertainty is that of correlated
 /// samples: of the sum of squared autocorrelations (J. S. Bendat, A. G. Piersol, Random Data, 4th
 /// ed., 8.4).
-/// A command that ramps up and down gives the largest encoder error, of a stage with feedforward.
+/// A command that moves gives the largest encoder error, of a stage with feedforward, less the mean
+/// of the first twentieth of the record, before the move.
 /// `gear_ratio`: motor turns per antenna turn.
 /// @throws InvalidInput for a record without any signal that the stage needs, of fewer than 100
 /// samples, or without a sample time.
@@ -46,15 +47,15 @@ StageMeasurement measure_stage(const identification::ServoRecord& record,
                                const CommissioningStage& stage, double gear_ratio);
 
 /// A measured quantity and what it says of the stage.
-struct JudgedQuantity {
+struct EvaluatedQuantity {
   MeasuredQuantity measured;
   PassInterval expected;
   std::optional<double> abort;
   StageVerdict verdict = StageVerdict::passes;
 };
-std::vector<JudgedQuantity> judge(const StageMeasurement& measurement,
-                                  const CommissioningStage& stage, double rms_allowance);
+std::vector<EvaluatedQuantity> evaluated(const StageMeasurement& measurement,
+                                         const CommissioningStage& stage, double rms_allowance);
 /// The worst of them; passes without any.
-StageVerdict worst_verdict(const std::vector<JudgedQuantity>& judged);
+StageVerdict worst_verdict(const std::vector<EvaluatedQuantity>& quantities);
 
 }  // namespace boresight::design

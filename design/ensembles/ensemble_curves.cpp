@@ -194,16 +194,17 @@ EnsembleCurves ensemble_curves(const TrackingProblem& problem,
       control::has_break(controller, control::LoopBreak::rate_loop_alone) ? 0 : 1;
   std::array<ArrayXd, 2> times;
   for (std::size_t loop = first; loop < times.size(); ++loop) {
-    times.at(loop) = step_grid(command_loops.at(loop)(plant::to_state_space(problem.plant), controller, problem.delay));
+    times.at(loop) = step_grid(
+        command_loops.at(loop)(plant::to_state_space(problem.plant), controller, problem.delay));
   }
   const auto curves_of = [&](TrackingProblem of_plant) {
     PlantCurves found;
     found.sensitivity = sensitivities(of_plant.plant, of_plant.delay, controller, curves.frequency);
     found.boresight_rms = rms_at_speeds(of_plant, controller, winds);
     for (std::size_t loop = first; loop < times.size(); ++loop) {
-      found.steps.at(loop) =
-          step_response(command_loops.at(loop)(plant::to_state_space(of_plant.plant), controller, of_plant.delay),
-                        times.at(loop)[1], step_times);
+      found.steps.at(loop) = step_response(
+          command_loops.at(loop)(plant::to_state_space(of_plant.plant), controller, of_plant.delay),
+          times.at(loop)[1], step_times);
     }
     return found;
   };

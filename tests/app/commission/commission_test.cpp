@@ -193,13 +193,13 @@ std::string step_record(const ScratchFolder& folder, double rise_time) {
     const double time = 0.1 * k;
     const double command = static_cast<int>(time / half) % 2 == 1 ? size : 0.0;
     rate += (command - rate) * (1.0 - std::exp(-0.1 / lag));
-    text += fmt::format("{:.1f},{:.4f},{:.9g}\n", time, command,
-                        rate * gear * 0.017453292519943295);
+    text +=
+        fmt::format("{:.1f},{:.4f},{:.9g}\n", time, command, rate * gear * 0.017453292519943295);
   }
   return folder.write("stage.csv", text);
 }
 
-TEST(Commission, JudgesTheRecordOfAStageAndWeighsThePlantsByIt) {
+TEST(Commission, EvaluatesTheRecordOfAStageAndUpdatesThePlants) {
   const ScratchFolder folder;
   const std::string path = small_case(folder);
   const auto plan = plan_of(path, {});

@@ -44,9 +44,8 @@ TEST(TryStages, AreTheSameForAnyNumberOfThreads) {
 
 TEST(TryStages, RefusesNoPlantsAndStopsWhenAsked) {
   const auto& planned = reference::planned_stages();
-  EXPECT_THROW(
-      try_stages(planned.mission, planned.distribution, planned.plan, planned.move, 0, {}),
-      InvalidInput);
+  EXPECT_THROW(try_stages(planned.mission, planned.distribution, planned.plan, planned.move, 0, {}),
+               InvalidInput);
   TrialOptions options;
   options.stop = [] { return true; };
   EXPECT_THROW(
@@ -66,15 +65,15 @@ TEST(TryFaults, WrongSignsOscillateInTheFirstStageThatClosesTheirLoop) {
       try_faults(planned.mission, planned.plan, planned.move, usual_faults(4.0, true), {});
   for (const char* fault : {"tachometer with the wrong sign", "valve with the wrong sign"}) {
     const FaultTrial& trial = trial_of(trials, fault);
-    ASSERT_TRUE(trial.caught.has_value()) << fault;
-    EXPECT_EQ(*trial.caught, 0U) << fault;
-    EXPECT_FALSE(trial.judgement.stable) << fault;
+    ASSERT_TRUE(trial.detected.has_value()) << fault;
+    EXPECT_EQ(*trial.detected, 0U) << fault;
+    EXPECT_FALSE(trial.evaluation.stable) << fault;
   }
   const FaultTrial& encoder = trial_of(trials, "encoder with the wrong sign");
-  ASSERT_TRUE(encoder.caught.has_value());
-  EXPECT_EQ(planned.plan.stages[*encoder.caught].kind, StageKind::position_loop);
-  EXPECT_EQ(planned.plan.stages[*encoder.caught].step, 1);
-  EXPECT_FALSE(encoder.judgement.stable);
+  ASSERT_TRUE(encoder.detected.has_value());
+  EXPECT_EQ(planned.plan.stages[*encoder.detected].kind, StageKind::position_loop);
+  EXPECT_EQ(planned.plan.stages[*encoder.detected].step, 1);
+  EXPECT_FALSE(encoder.evaluation.stable);
 }
 
 // A valve of twice the gain is a rate loop of twice the gain.

@@ -18,9 +18,9 @@ struct PlannedStages {
 
   explicit PlannedStages(const control::Controller& target) {
     mission.uncertainty.random_samples = 12;
-    plan = design::plan_commissioning(
-        design::tracking_problem(mission), design::plant_members(mission, 1), std::nullopt,
-        target, move);
+    plan =
+        design::plan_commissioning(design::tracking_problem(mission),
+                                   design::plant_members(mission, 1), std::nullopt, target, move);
   }
 };
 

@@ -53,8 +53,8 @@ TEST(UpdatedPlants, HoldTheTruthAndNarrow) {
   constexpr int truths = 5;
   for (std::uint64_t truth = 0; truth < truths; ++truth) {
     const PlantSample sample = planned.distribution.draw(99, truth);
-    const auto update = update_by(shown_by(
-        plant::linear_plant(plant::changed(planned.mission.antenna, changes_of(sample)))));
+    const auto update = update_by(
+        shown_by(plant::linear_plant(plant::changed(planned.mission.antenna, changes_of(sample)))));
     EXPECT_TRUE(update.explained);
     EXPECT_TRUE(update.faults.empty());
     EXPECT_GE(update.effective, 20.0);
@@ -65,10 +65,10 @@ TEST(UpdatedPlants, HoldTheTruthAndNarrow) {
       ++inputs;
     }
     const InputUpdate& first = update.inputs.front();
-    narrower += first.after.upper - first.after.lower <
-                        0.95 * (first.before.upper - first.before.lower)
-                    ? 1
-                    : 0;
+    narrower +=
+        first.after.upper - first.after.lower < 0.95 * (first.before.upper - first.before.lower)
+            ? 1
+            : 0;
   }
   // Of ten 95 % intervals, three misses have a probability of 1 %.
   EXPECT_GE(held, inputs - 2);

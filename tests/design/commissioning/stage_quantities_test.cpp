@@ -77,20 +77,20 @@ TEST(StageVerdict, AllowsAnRmsWhatTheSensorsNoiseMayBe) {
   EXPECT_FALSE(abort_limit(calm_tachometer, stage).has_value());
 }
 
-TEST(Judge, NamesTheWorstQuantity) {
+TEST(EvaluatedStage, NamesTheWorstQuantity) {
   const auto& planned = reference::planned_stages();
   const TrackingProblem problem = tracking_problem(planned.mission);
   StageObserver observer(problem, problem.plant, WindTable(problem), planned.move);
   StageObservation seen = observer.observe(first_stage().controller);
-  EXPECT_EQ(judge(seen, first_stage(), 1.2).verdict, StageVerdict::passes);
+  EXPECT_EQ(evaluated(seen, first_stage(), 1.2).verdict, StageVerdict::passes);
   seen.rise_time *= 3.0;
-  EXPECT_EQ(judge(seen, first_stage(), 1.2).verdict, StageVerdict::outside);
-  EXPECT_EQ(judge(seen, first_stage(), 1.2).worst, rise_time);
+  EXPECT_EQ(evaluated(seen, first_stage(), 1.2).verdict, StageVerdict::outside);
+  EXPECT_EQ(evaluated(seen, first_stage(), 1.2).worst, rise_time);
   seen.calm.valve_command *= 10.0;
-  EXPECT_EQ(judge(seen, first_stage(), 1.2).verdict, StageVerdict::abort);
-  EXPECT_EQ(judge(seen, first_stage(), 1.2).worst, calm_valve);
+  EXPECT_EQ(evaluated(seen, first_stage(), 1.2).verdict, StageVerdict::abort);
+  EXPECT_EQ(evaluated(seen, first_stage(), 1.2).worst, calm_valve);
   seen.stable = false;
-  EXPECT_FALSE(judge(seen, first_stage(), 1.2).stable);
+  EXPECT_FALSE(evaluated(seen, first_stage(), 1.2).stable);
 }
 
 }  // namespace

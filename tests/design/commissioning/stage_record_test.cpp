@@ -48,8 +48,7 @@ identification::ServoRecord square_wave(const CommissioningStage& stage, double 
   const Index samples = half * (halves + 1);
   constexpr double size = 3.0;
   constexpr double rate = 0.01;  // of the motion below a position step, per second
-  Eigen::MatrixXd input =
-      Eigen::MatrixXd::Zero(samples, static_cast<Index>(loop.inputs.size()));
+  Eigen::MatrixXd input = Eigen::MatrixXd::Zero(samples, static_cast<Index>(loop.inputs.size()));
   for (Index k = 0; k < samples; ++k) {
     const double motion = open ? rate : rate * sample_time * static_cast<double>(k);
     input(k, 0) = motion + ((k / half) % 2 == 1 ? size : 0.0);
@@ -62,8 +61,7 @@ identification::ServoRecord square_wave(const CommissioningStage& stage, double 
   identification::ServoRecord record;
   record.name = "square wave";
   record.sample_time = sample_time;
-  (open ? record.rate_command : record.position_command) =
-      identification::Signal{input.col(0), {}};
+  (open ? record.rate_command : record.position_command) = identification::Signal{input.col(0), {}};
   (open ? record.motor_rate : record.encoder) = identification::Signal{response, {}};
   return record;
 }
@@ -98,11 +96,10 @@ TEST(MeasureStage, StatesWhatNoiseLeavesUncertain) {
     const auto& rise = quantity_of(measured, StageQuantity::rise_time);
     const auto& overshoot = quantity_of(measured, StageQuantity::overshoot);
     EXPECT_EQ(rise.steps, static_cast<std::size_t>(halves));
-    EXPECT_NEAR(rise.value, expected.rise_time,
-                4.0 * rise.uncertainty + 0.02 * expected.rise_time);
+    EXPECT_NEAR(rise.value, expected.rise_time, 4.0 * rise.uncertainty + 0.02 * expected.rise_time);
     EXPECT_NEAR(overshoot.value, expected.overshoot, 4.0 * overshoot.uncertainty + 0.02);
     EXPECT_GT(overshoot.uncertainty, 0.0);
-    EXPECT_EQ(worst_verdict(judge(measured, stage, 1.2)), StageVerdict::passes);
+    EXPECT_EQ(worst_verdict(evaluated(measured, stage, 1.2)), StageVerdict::passes);
   }
 }
 
@@ -152,6 +149,32 @@ TEST(MeasureStage, KnowsTheUncertaintyOfAnRmsOfCorrelatedSamples) {
   EXPECT_NEAR(mean, 1.0 / std::sqrt(1.0 - memory * memory), 0.03 * mean);
   // The scatter of 40 values is itself known to 11 %.
   EXPECT_NEAR(std::sqrt(square) / mean, relative, 0.3 * relative);
+}
+
+// The largest error of a move, less what was there before it.
+TEST(MeasureStage, ReadsTheErrorOfAMove) {
+  const CommissioningStage& stage = reference::planned_stages().plan.stages.back();
+  ASSERT_EQ(stage.kind, StageKind::feedforward);
+  constexpr Index samples = 2000;
+  constexpr double gear = 100.0;
+  constexpr double offset = 2e-6;
+  constexpr double peak = 7e-6;
+  VectorXd command(samples), error(samples);
+  for (Index k = 0; k < samples; ++k) {
+    const double part = static_cast<double>(k) / samples;
+    command[k] = part < 0.3 ? 1e-4 * part : 1e-4 * part + 0.01 * std::min(part - 0.3, 0.3);
+    error[k] = offset + (part > 0.3 && part < 0.4 ? -peak : 0.0);
+  }
+  identification::ServoRecord record;
+  record.name = "move";
+  record.sample_time = sample_time;
+  record.position_command = identification::Signal{command, {}};
+  record.position_error = identification::Signal{error, {}};
+  const auto measured = measure_stage(record, stage, gear);
+  ASSERT_EQ(measured.quantities.size(), 1U);
+  EXPECT_EQ(measured.quantities.front().quantity, StageQuantity::move_error);
+  EXPECT_NEAR(measured.quantities.front().value, gear * peak, 1e-12);
+  EXPECT_NEAR(measured.quantities.front().uncertainty, 0.0, 1e-12);
 }
 
 TEST(MeasureStage, RefusesARecordThatShowsNothingOfTheStage) {

@@ -28,7 +28,8 @@ TEST(OutputFolder, RefusesAFileInItsPlace) {
     output_folder(path, "sheets");
     FAIL() << "made a folder of a file";
   } catch (const InvalidInput& error) {
-    EXPECT_THAT(error.what(), testing::HasSubstr("expected a folder to write sheets to, found none"));
+    EXPECT_THAT(error.what(),
+                testing::HasSubstr("expected a folder to write sheets to, found none"));
   }
   std::filesystem::remove(path);
 }

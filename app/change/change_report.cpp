@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boresight/app/change/change_report.hpp>
+#include <boresight/app/figures/change_figures.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/report/text_state_space.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -74,6 +75,7 @@ ChangeReport report_change(const io::DesignedAntenna& designed,
         speed_ratio));
   }
   report.assumed = assumed_inputs(antenna, {});
+  report.figures = change_figures(report);
   return report;
 }
 

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planned_stages.hpp"
+#include "design/commissioning/planned_stages.hpp"
 #include <boresight/design/commissioning/commissioning_trials.hpp>
 #include <boresight/numerics/error.hpp>
 

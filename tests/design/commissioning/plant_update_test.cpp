@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planned_stages.hpp"
+#include "design/commissioning/planned_stages.hpp"
 #include <boresight/design/commissioning/plant_update.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>

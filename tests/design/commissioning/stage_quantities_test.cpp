@@ -1,7 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planned_stages.hpp"
+#include "design/commissioning/planned_stages.hpp"
 #include <boresight/design/commissioning/stage_quantities.hpp>
 
 namespace boresight::design {

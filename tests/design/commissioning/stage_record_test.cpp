@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "planned_stages.hpp"
+#include "design/commissioning/planned_stages.hpp"
 #include <boresight/control/loops/command_loop.hpp>
 #include <boresight/design/commissioning/stage_record.hpp>
 #include <boresight/numerics/error.hpp>

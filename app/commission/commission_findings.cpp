@@ -134,9 +134,9 @@ std::vector<std::string> about_trials(const CommissionReport& report) {
       aborted = std::max(aborted, report.trials[i].aborted);
     }
     sentences.push_back(fmt::format(
-        "On {} fresh plants of the uncertainty set every stage is stable on {:.2f} % or more and "
-        "within its brackets on {:.1f} % or more; no stage aborts on more than {:.2f} %.",
-        first.plants, percentage(stable, first.plants), percentage(passing, first.plants),
+        "On {} of {} fresh plants of the uncertainty set every stage is stable. At least {:.1f} % "
+        "pass all checks of a stage; a stage aborts on at most {:.2f} % (false alarms).",
+        stable, first.plants, percentage(passing, first.plants),
         percentage(aborted, first.plants)));
   }
   if (!report.faults.empty()) {

@@ -54,11 +54,11 @@ struct PlantUpdate {
 /// sensor noise is stated, not measured), added in quadrature.
 double comparison_deviation(const MeasuredQuantity& measured);
 
-/// Weighs `count` plants of the distribution by the likelihood of the records, each quantity normal
-/// and independent of the others; twice as many again, up to 16 times, while fewer than 40
-/// effective ones are left. The same for any number of threads. Takes 20 ms per plant and recorded
-/// stage. @throws InvalidInput for fewer than 20 plants, no quantities, or a stage that the plan
-/// does not have; as plant::changed; Interrupted.
+/// Draws `count` plants of the distribution, weighted by the likelihood of the records, each
+/// quantity normal and independent of the others; twice as many again, up to 16 times, while fewer
+/// than 40 effective ones are left. The same for any number of threads. Takes 20 ms per plant and
+/// recorded stage. @throws InvalidInput for fewer than 20 plants, no quantities, or a stage that
+/// the plan does not have; as plant::changed; Interrupted.
 PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& distribution,
                            const CommissioningPlan& plan, const CommandedMove& move,
                            const std::vector<MeasuredStage>& records,

@@ -4,6 +4,7 @@
 #include <boresight/app/figures/figure_description.hpp>
 #include <boresight/app/report/common_description.hpp>
 #include <boresight/app/report/json_writer.hpp>
+#include <boresight/app/report/servo_record_wording.hpp>
 #include <boresight/io/description/visitor.hpp>
 
 namespace boresight::app {
@@ -71,7 +72,7 @@ void describe_condition(io::Visitor& v, const design::ConditionInWind& condition
              v.text_or_null("column_unit", one.unit, "As taken.");
              v.text_or_null("remark", one.remark, "What was taken for granted.");
            });
-    v.texts("remarks", notes.remarks, "Of columns that were left out, and of the reader.");
+    v.texts("remarks", reading_of(notes), "How its columns were read, and samples that were not.");
   });
 }
 
@@ -161,6 +162,7 @@ void describe(io::Visitor& v, const ChangeReport& report) {
     v.flag("passed", check.passed, "Null: it could not be checked.");
   });
   v.count("plants", report.plants, "Ensemble members.");
+  v.flag("stable_nominal", report.stable_nominal, "The new controller on the nominal plant.");
   v.count("stable_plants", report.stable_plants, "With the new controller.");
   v.text("ensemble_source", report.ensemble_source, "Distribution that they are sampled from.");
   v.number("budget", report.budget, unit::millidegree, "The tightest; null without one.");

@@ -5,6 +5,7 @@
 #include <boresight/app/change/change_report.hpp>
 #include <boresight/app/document/document_text.hpp>
 #include <boresight/app/report/axis_wording.hpp>
+#include <boresight/app/report/servo_record_wording.hpp>
 #include <boresight/app/report/text_report.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -65,7 +66,7 @@ std::string check_text(design::ChangeCheckKind kind) {
     case prediction:
       return "The prediction held";
     case stability:
-      return "The new controller is stable on every ensemble member";
+      return "The new controller is stable on the nominal plant and every ensemble member";
     case design_wind_rms:
       return "In the design wind the rms is within the tightest budget";
   }
@@ -92,9 +93,13 @@ std::string check_value(const ChangeReport& report, design::ChangeCheckKind kind
     case prediction:
       return report.predicted ? "ratio " + band_text(report.predicted->ratio) : "no prediction";
     case stability:
-      return fmt::format("{} of {}", report.stable_plants, report.plants);
+      return fmt::format("{} of {} members{}", report.stable_plants, report.plants,
+                         report.stable_nominal ? "" : ", NOT the nominal plant");
     case design_wind_rms: {
       if (!report.budget) return "the case has no budget";
+      if (report.error != design::RecordedError::boresight) {
+        return "position errors do not include the flexure beyond the encoder";
+      }
       const auto& at = comparison.at_design;
       if (!at) return "not compared there";
       return fmt::format("{} mdeg at {:g} m/s, budget {:.4g} mdeg{}", rms_text(at->after),
@@ -139,8 +144,8 @@ Document records_part(const ChangeReport& report) {
       "  ");
   for (const auto* files : {&report.before_files, &report.after_files}) {
     for (const auto& notes : *files) {
-      for (const auto& remark : notes.remarks)
-        text += wrapped(notes.path + ": " + remark, "  ", "  ");
+      for (const auto& sentence : reading_of(notes))
+        text += wrapped(notes.path + ": " + sentence, "  ", "  ");
     }
   }
   for (const auto& remark : report.remarks) text += wrapped(remark, "  ");

@@ -2,6 +2,8 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -20,8 +22,22 @@
 namespace boresight::app {
 namespace {
 
+// Of an earlier plan, which may have had more stages: a controller of it must not be loaded.
+void remove_earlier(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> earlier;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool controller = name.starts_with("stage_") &&
+                            (name.ends_with("_gains.toml") || name.ends_with("_state_space.json"));
+    const bool bode = name.starts_with("commission-bode-") && name.ends_with(".csv");
+    if (controller || bode) earlier.push_back(entry.path());
+  }
+  for (const auto& path : earlier) std::filesystem::remove(path);
+}
+
 void write_sheets(const CommissionReport& report, const CommissionArguments& arguments) {
   const std::filesystem::path folder = arguments.folder;
+  remove_earlier(folder);
   for (const auto& file : commission_files(report)) {
     io::write_atomically((folder / file.name).string(), file.content);
   }

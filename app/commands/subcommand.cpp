@@ -29,7 +29,6 @@ void see_interrupt(int /*signal*/) {
   interrupt_seen = 1;
 }
 
-// Made if it is not there, as write_curves would.
 }  // namespace
 
 void add_case(CLI::App& command, std::string& path) {

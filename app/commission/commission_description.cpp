@@ -285,8 +285,14 @@ void describe(io::Visitor& v, const CommissionReport& report) {
   v.texts("remarks", report.plan.remarks, "what the plan had to do otherwise than asked");
   v.list("stages", report.sheets, "in the order of the work",
          [&](const StageSheet& sheet) { describe_sheet(v, sheet, sky); });
-  v.list("trials", report.trials, "the stages on fresh plants, in the order of the work",
-         [&](const design::StageTrial& trial) { describe_trial(v, trial); });
+  v.group_if("trials", !report.trials.stages.empty() || v.by_example(), "of the stages", [&] {
+    v.count("plants", report.trials.plants, "fresh ones of the uncertainty set");
+    v.count("stable", report.trials.stable, "in every stage");
+    v.count("passing", report.trials.passing, "every check of every stage");
+    v.count("aborted", report.trials.aborted, "at least one stage: false alarms");
+    v.list("stages", report.trials.stages, "in the order of the work",
+           [&](const design::StageTrial& trial) { describe_trial(v, trial); });
+  });
   v.list("faults", report.faults, "an antenna with each of them, in the stages",
          [&](const design::FaultTrial& trial) { describe_fault(v, trial); });
   v.list("records", report.records, "of stages that are done",

@@ -43,7 +43,7 @@ std::string estimate(const design::PlantEstimate& value, double unit, const char
 // A fault and the stage that shows it.
 std::vector<std::string> fault_row(const CommissionReport& report,
                                    const design::FaultTrial& trial) {
-  if (!trial.detected) return {trial.fault, "none", "passes every stage: none depends on it"};
+  if (!trial.detected) return {trial.fault, "none", "within the brackets of every stage"};
   const auto& stage = report.sheets[*trial.detected].stage;
   std::string shows = "oscillates";
   if (trial.evaluation.worst) {
@@ -112,6 +112,13 @@ std::vector<std::string> about_records(const CommissionReport& report) {
     return sentences;
   }
   const double sky = report.gear_ratio * millidegree;
+  if (update.effective < design::fewest_effective_plants) {
+    sentences.push_back(
+        fmt::format("As few as {:.0f} of {} plants of the uncertainty set respond like this: their "
+                    "intervals are "
+                    "rough.",
+                    update.effective, update.plants));
+  }
   sentences.push_back(fmt::format(
       "By the records the antenna will end at {} mdeg boresight rms in the design wind (linear), "
       "{} before them.",
@@ -122,22 +129,12 @@ std::vector<std::string> about_records(const CommissionReport& report) {
 
 std::vector<std::string> about_trials(const CommissionReport& report) {
   std::vector<std::string> sentences;
-  if (!report.trials.empty()) {
-    const auto& first = report.trials.front();
-    std::size_t stable = first.plants;
-    std::size_t passing = first.plants;
-    std::size_t aborted = 0;
-    for (std::size_t i = 0; i < report.trials.size(); ++i) {
-      if (report.sheets[i].stage.kind == design::StageKind::as_found) continue;
-      stable = std::min(stable, report.trials[i].stable);
-      passing = std::min(passing, report.trials[i].passing);
-      aborted = std::max(aborted, report.trials[i].aborted);
-    }
+  if (const auto& trials = report.trials; !trials.stages.empty()) {
     sentences.push_back(fmt::format(
-        "On {} of {} fresh plants of the uncertainty set every stage is stable. At least {:.1f} % "
-        "pass all checks of a stage; a stage aborts on at most {:.2f} % (false alarms).",
-        stable, first.plants, percentage(passing, first.plants),
-        percentage(aborted, first.plants)));
+        "On {} of {} fresh plants of the uncertainty set every stage is stable. {:.1f} % pass all "
+        "checks of all stages; a stage aborts on {:.2f} % (false alarms).",
+        trials.stable, trials.plants, percentage(trials.passing, trials.plants),
+        percentage(trials.aborted, trials.plants)));
   }
   if (!report.faults.empty()) {
     const auto detected = std::ranges::count_if(
@@ -151,10 +148,10 @@ std::vector<std::string> about_trials(const CommissionReport& report) {
 
 Document trials_part(const CommissionReport& report) {
   Document text;
-  if (!report.trials.empty()) {
+  if (!report.trials.stages.empty()) {
     Rows rows{{"stage", "", "stable %", "in brackets %", "aborts %", "most often outside", "%"}};
-    for (std::size_t i = 0; i < report.trials.size(); ++i) {
-      const auto& trial = report.trials[i];
+    for (std::size_t i = 0; i < report.trials.stages.size(); ++i) {
+      const auto& trial = report.trials.stages[i];
       rows.push_back({fmt::format("{}", i + 1), stage_name(report.sheets[i].stage),
                       fmt::format("{:.2f}", percentage(trial.stable, trial.plants)),
                       fmt::format("{:.2f}", percentage(trial.passing, trial.plants)),
@@ -162,7 +159,7 @@ Document trials_part(const CommissionReport& report) {
                       trial.worst ? std::string(to_string(*trial.worst)) : "-",
                       fmt::format("{:.2f}", percentage(trial.worst_outside, trial.plants))});
     }
-    text += heading(fmt::format("Stages on {} fresh plants", report.trials.front().plants));
+    text += heading(fmt::format("Stages on {} fresh plants", report.trials.plants));
     text += essential(table(rows, "rlrrrl"));
   }
   if (!report.faults.empty()) {

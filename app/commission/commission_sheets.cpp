@@ -106,6 +106,10 @@ std::vector<io::CodeFile> commission_files(const CommissionReport& report) {
     io::CodeFile file =
         io::controller_to_read(report.sheets[i].stage.controller.controller, report.structure);
     file.name = fmt::format("stage_{:02}_{}", i + 1, file.name);
+    if (report.sheets[i].stage.controller.position_open) {
+      file.content =
+          "# The position loop is open in this stage: its gains do not act.\n" + file.content;
+    }
     files.push_back(std::move(file));
   }
   return files;

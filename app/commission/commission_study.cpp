@@ -10,6 +10,7 @@
 #include <boresight/app/figures/commission_figures.hpp>
 #include <boresight/app/redesign/assumed_inputs.hpp>
 #include <boresight/app/redesign/sections.hpp>
+#include <boresight/app/report/servo_record_wording.hpp>
 #include <boresight/app/tune/chosen_controller.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/structure_option.hpp>
@@ -118,7 +119,7 @@ std::vector<RecordedStage> read_records(const io::Case& antenna, const Commissio
     if (number < 1) throw InvalidInput("--record: expected the number of a stage, from 1, found 0");
     io::ServoRecordNotes notes;
     records.push_back(io::read_servo_record(antenna, file, notes));
-    stages.push_back({number - 1, file, {}, {}, notes.remarks});
+    stages.push_back({number - 1, file, {}, {}, reading_of(notes)});
   }
   return stages;
 }
@@ -133,10 +134,6 @@ void evaluate_records(const io::DesignedAntenna& designed, const CommissionOptio
   std::size_t quantities = 0;
   for (std::size_t i = 0; i < records.size(); ++i) {
     RecordedStage& record = report.records[i];
-    if (record.stage >= report.plan.stages.size()) {
-      throw InvalidInput(fmt::format("--record: expected a stage of the plan, 1 to {}, found {}",
-                                     report.plan.stages.size(), record.stage + 1));
-    }
     const auto& stage = report.plan.stages[record.stage];
     record.measurement = measure_stage(records[i], stage, report.gear_ratio);
     record.evaluated = evaluated(record.measurement, stage, report.options.rms_allowance);
@@ -211,6 +208,11 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
       channel.predicted = predicted_ratio(report.plan, channel.quantity);
     }
     report.sheets = make_sheets(antenna, report, study.steps);
+    for (const RecordedStage& record : report.records) {
+      if (record.stage < report.plan.stages.size()) continue;
+      throw InvalidInput(fmt::format("--record: expected a stage of the plan, 1 to {}, found {}",
+                                     report.plan.stages.size(), record.stage + 1));
+    }
     const auto faults = design::usual_faults(static_cast<double>(antenna.motor->count),
                                              target.structure.feeds_torque_back());
     report.faults = try_faults(designed.mission, report.plan, report.move, faults,

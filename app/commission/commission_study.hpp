@@ -103,7 +103,7 @@ struct CommissionReport {
   std::vector<std::string> bounds;
   std::vector<StageSheet> sheets;
   PlantUnits units;
-  std::vector<design::StageTrial> trials;  // on fresh plants, one a stage; empty: not asked for
+  design::CommissioningTrials trials;  // on fresh plants; without stages: not asked for
   std::vector<design::FaultTrial> faults;
   std::vector<RecordedStage> records;
   std::optional<design::PlantUpdate> update;  // by the records; none: nothing was measured

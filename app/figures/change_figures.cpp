@@ -38,12 +38,12 @@ std::vector<Figure> change_figures(const design::ChangeStudy& study) {
   const design::WindComparison& comparison = study.comparison;
   Figure figure = make_figure(
       "change-in-wind", "Evidence", "Error over wind speed, before and after",
-      fmt::format("Rms of the {} error of each record, {:.3g} to {:.3g} Hz; both conditions with "
+      fmt::format("Rms of the {} of each record, {:.3g} to {:.3g} Hz; both conditions with "
                   "their intervals at the wind of the comparison.",
                   to_string(study.error), comparison.lowest, comparison.highest),
       make_axis("mean wind speed", "m/s"));
   FigurePanel panel =
-      make_panel(make_axis(fmt::format("{} error rms", to_string(study.error)), "mdeg"),
+      make_panel(make_axis(fmt::format("{} rms", to_string(study.error)), "mdeg"),
                  {records_of(comparison.before, "before"), records_of(comparison.after, "after")});
   std::vector<std::pair<double, design::RmsBand>> before, after;
   for (const auto* at : {&comparison.at_reference, &comparison.at_design}) {

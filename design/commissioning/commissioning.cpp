@@ -109,7 +109,8 @@ class Plants {
     stage.kind = kind;
     stage.controller = controller;
     expect(seen, stage.expected);
-    if (stage.expected.all_stable()) stage.bode = bode(controller, seen.front().crossover);
+    if (stage.expected.all_stable() && seen.front().crossover > 0.0)
+      stage.bode = bode(controller, seen.front().crossover);
     limit(stage);
     return stage;
   }

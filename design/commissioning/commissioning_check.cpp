@@ -114,6 +114,7 @@ StageObserver::StageObserver(const TrackingProblem& problem, const plant::Antenn
                              const WindTable& wind, const CommandedMove& move,
                              const SignalFactors& factors)
     : problem_(with_plant(problem, plant)),
+      stated_(problem.plant),
       move_(move),
       factors_(factors),
       sensed_(sensed(plant::to_state_space(plant), factors)),
@@ -215,9 +216,9 @@ void StageObserver::observe_step(const StageController& stage, StageObservation&
 void StageObserver::observe_move(const StageController& stage, StageObservation& seen) const {
   const plant::StateSpace loop =
       control::position_command_loop(sensed_, stage.controller, problem_.delay);
-  const auto forward = stage.feedforward ? control::plant_feedforward(
-                                               problem_.plant, stage.controller, problem_.delay)
-                                         : control::Feedforward{};
+  const auto forward = stage.feedforward
+                           ? control::plant_feedforward(stated_, stage.controller, problem_.delay)
+                           : control::Feedforward{};
   // Speeding up, as long at the rate, slowing down, and time for what is left to show.
   const double ramp = move_.rate / move_.acceleration;
   const double wait = 30.0 / seen.crossover;

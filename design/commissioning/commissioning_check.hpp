@@ -62,9 +62,10 @@ struct SignalFactors {
 /// Evaluates controllers on one plant. Use one object per thread.
 class StageObserver {
  public:
-  /// `plant` replaces the problem's. With factors other than 1, everything is as the sensors show
-  /// it, Ms is read from a grid of 60 points per decade, stability is that of command_loop.hpp, and
-  /// boresight rms and rms in wind are NaN.
+  /// `plant` replaces the problem's, whose feedforward stays: it is what the computer is loaded
+  /// with. With factors other than 1, everything is as the sensors show it, Ms is read from a grid
+  /// of 60 points per decade, stability is that of command_loop.hpp, and boresight rms and rms in
+  /// wind are NaN.
   /// @throws InvalidInput for a move that is not positive.
   StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
                 const WindTable& wind, const CommandedMove& move,
@@ -95,6 +96,7 @@ class StageObserver {
   double crossover(const StageController& stage) const;
 
   TrackingProblem problem_;
+  plant::AntennaPlant stated_;  // the problem's own plant
   CommandedMove move_;
   SignalFactors factors_;
   plant::StateSpace sensed_;  // the plant as its sensors show it

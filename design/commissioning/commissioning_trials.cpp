@@ -43,9 +43,9 @@ void check_interrupt(const TrialOptions& options) {
 
 }  // namespace
 
-std::vector<StageTrial> try_stages(const Mission& mission, const PlantDistribution& distribution,
-                                   const CommissioningPlan& plan, const CommandedMove& move,
-                                   std::size_t count, const TrialOptions& options) {
+CommissioningTrials try_stages(const Mission& mission, const PlantDistribution& distribution,
+                               const CommissioningPlan& plan, const CommandedMove& move,
+                               std::size_t count, const TrialOptions& options) {
   if (count < 1) throw InvalidInput("try_stages: expected at least one plant, found none");
   const TrackingProblem problem = tracking_problem(mission);
   const WindTable wind(problem);
@@ -65,9 +65,23 @@ std::vector<StageTrial> try_stages(const Mission& mission, const PlantDistributi
     });
     if (options.progress) options.progress(first + together, count);
   }
-  std::vector<StageTrial> trials(plan.stages.size());
-  for (std::size_t k = 0; k < trials.size(); ++k) {
-    StageTrial& trial = trials[k];
+  CommissioningTrials trials;
+  trials.stages.resize(plan.stages.size());
+  trials.plants = count;
+  for (const auto& plant : outcomes) {
+    bool stable = true, passing = true, aborted = false;
+    for (std::size_t k = 0; k < plant.size(); ++k) {
+      if (plan.stages[k].kind == StageKind::as_found) continue;
+      stable = stable && plant[k].stable;
+      passing = passing && plant[k].verdict == StageVerdict::passes;
+      aborted = aborted || plant[k].verdict == StageVerdict::abort;
+    }
+    trials.stable += stable ? 1 : 0;
+    trials.passing += passing ? 1 : 0;
+    trials.aborted += aborted ? 1 : 0;
+  }
+  for (std::size_t k = 0; k < trials.stages.size(); ++k) {
+    StageTrial& trial = trials.stages[k];
     std::map<StageQuantity, std::size_t> outside;
     for (const auto& plant : outcomes) {
       const Outcome& outcome = plant[k];

@@ -34,12 +34,22 @@ struct StageTrial {
   std::size_t worst_outside = 0;
 };
 
+/// The stages, in order, and the plants on which the whole way goes as planned, but for the stage
+/// as found.
+struct CommissioningTrials {
+  std::vector<StageTrial> stages;
+  std::size_t plants = 0;
+  std::size_t stable = 0;   // in every stage
+  std::size_t passing = 0;  // every check of every stage
+  std::size_t aborted = 0;  // at least one stage
+};
+
 /// Runs every stage of a plan on `count` plants drawn from the distribution, other ones than those
 /// of an ensemble of the same seed. The same for any number of threads. Takes 20 ms per stage and
 /// plant. @throws InvalidInput without plants, and as plant::changed; Interrupted.
-std::vector<StageTrial> try_stages(const Mission& mission, const PlantDistribution& distribution,
-                                   const CommissioningPlan& plan, const CommandedMove& move,
-                                   std::size_t count, const TrialOptions& options);
+CommissioningTrials try_stages(const Mission& mission, const PlantDistribution& distribution,
+                               const CommissioningPlan& plan, const CommandedMove& move,
+                               std::size_t count, const TrialOptions& options);
 
 /// An antenna that is not as stated: built, scaled or wired otherwise.
 struct AntennaFault {

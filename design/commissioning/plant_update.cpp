@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -20,7 +22,7 @@ constexpr std::size_t plants_together = 50;
 // Effective plants that make intervals of their own, and how many times the plants asked for may be
 // drawn for them.
 constexpr double enough = 40.0;
-constexpr std::size_t most_times = 16;
+constexpr std::size_t most_times = 16, most_times_unexplained = 4;
 constexpr double tail = 0.025;
 constexpr double certainty = 0.99;
 
@@ -46,7 +48,7 @@ PlantEstimate estimate(const std::vector<double>& values, const std::vector<doub
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(order, {}, [&](std::size_t i) { return values[i]; });
-  PlantEstimate result;
+  PlantEstimate result{0.0, 0.0, 0.0};
   double below = 0.0;
   bool begun = false;
   for (const std::size_t i : order) {
@@ -136,22 +138,54 @@ void add_inputs(const PlantDistribution& distribution, const std::vector<Drawn>&
 }  // namespace
 
 double comparison_deviation(const MeasuredQuantity& measured) {
-  constexpr double of_time = 0.03, of_rms = 0.1;
+  constexpr double of_rms = 0.1;
   double model = of_rms * measured.value;
   if (measured.quantity == StageQuantity::overshoot) {
     model = overshoot_resolution;
   } else if (measured.quantity == StageQuantity::rise_time ||
              measured.quantity == StageQuantity::settling_time) {
-    model = of_time * measured.value;
+    model = time_resolution * measured.value;
   }
   return std::hypot(measured.uncertainty, model);
 }
 
+std::vector<MeasuredStage> combined(const std::vector<MeasuredStage>& records) {
+  std::vector<MeasuredStage> result;
+  for (const MeasuredStage& record : records) {
+    auto same = std::ranges::find(result, record.stage, &MeasuredStage::stage);
+    if (same == result.end()) {
+      result.push_back({record.stage, {}});
+      same = std::prev(result.end());
+    }
+    for (const auto& one : record.measurement.quantities)
+      same->measurement.quantities.push_back(one);
+  }
+  for (MeasuredStage& stage : result) {
+    std::map<StageQuantity, MeasuredQuantity> means;
+    std::map<StageQuantity, double> counts;
+    for (const auto& one : stage.measurement.quantities) {
+      auto& mean = means.try_emplace(one.quantity, MeasuredQuantity{one.quantity}).first->second;
+      mean.value += one.value;
+      mean.uncertainty = std::hypot(mean.uncertainty, one.uncertainty);
+      mean.steps += one.steps;
+      counts[one.quantity] += 1.0;
+    }
+    stage.measurement.quantities.clear();
+    for (auto& [quantity, mean] : means) {
+      mean.value /= counts[quantity];
+      mean.uncertainty /= counts[quantity];
+      stage.measurement.quantities.push_back(mean);
+    }
+  }
+  return result;
+}
+
 PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& distribution,
                            const CommissioningPlan& plan, const CommandedMove& move,
-                           const std::vector<MeasuredStage>& records,
+                           const std::vector<MeasuredStage>& measured,
                            const std::vector<AntennaFault>& faults, std::size_t count,
                            const TrialOptions& options) {
+  const std::vector<MeasuredStage> records = combined(measured);
   PlantUpdate update;
   update.quantities = quantities_of(records);
   check(plan, records, update.quantities, count);
@@ -173,21 +207,21 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
         one.mismatch = mismatch_of(observer, plan, records);
         one.final_rms = observer.observe(plan.stages.back().controller).boresight_rms;
         // One that is unstable at the end has no rms: it cannot be left.
-        if (std::isfinite(one.final_rms)) return;
-        one.mismatch = infinity;
-        one.final_rms = 0.0;
+        if (!std::isfinite(one.final_rms)) one.mismatch = infinity;
       });
       if (options.progress) options.progress(first + together, drawn.size());
     }
   };
+  const double explained =
+      numerics::chi_squared_quantile(certainty, static_cast<double>(update.quantities));
+  const auto most = [&] {
+    return count * (least_mismatch(drawn) <= explained ? most_times : most_times_unexplained);
+  };
   draw_more(count);
-  while (effective_number(drawn) < enough && drawn.size() < most_times * count) {
-    draw_more(drawn.size());
-  }
+  while (effective_number(drawn) < enough && drawn.size() < most()) draw_more(drawn.size());
   update.plants = drawn.size();
   update.mismatch = least_mismatch(drawn);
-  update.explained = update.mismatch <= numerics::chi_squared_quantile(
-                                            certainty, static_cast<double>(update.quantities));
+  update.explained = update.mismatch <= explained;
   if (!update.explained) {
     std::vector<double> mismatches(faults.size());
     numerics::for_each_index(faults.size(), options.threads, [&](std::size_t i) {
@@ -206,9 +240,15 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
   const std::vector<double> weights = weights_of(drawn);
   update.effective = effective_number(drawn);
   add_inputs(distribution, drawn, even, weights, update);
-  std::vector<double> rms;
-  for (const Drawn& one : drawn) rms.push_back(one.final_rms);
-  update.final_rms_before = estimate(rms, even);
+  std::vector<double> rms, of_stable;
+  for (const Drawn& one : drawn) {
+    const bool stable = std::isfinite(one.final_rms);
+    rms.push_back(stable ? one.final_rms : 0.0);
+    of_stable.push_back(stable ? 1.0 : 0.0);
+  }
+  const double stable = std::reduce(of_stable.begin(), of_stable.end());
+  for (double& weight : of_stable) weight /= stable;
+  update.final_rms_before = estimate(rms, of_stable);
   update.final_rms_after = estimate(rms, weights);
   return update;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,16 @@ struct MeasuredStage {
   StageMeasurement measurement;
 };
 
-/// A number over the plants: weighted mean and the quantiles of 2.5 % and 97.5 %.
+/// A number over the plants: weighted mean and the quantiles of 2.5 % and 97.5 %. NaN if none is
+/// left.
 struct PlantEstimate {
-  double mean = 0.0, lower = 0.0, upper = 0.0;
+  double mean = std::numeric_limits<double>::quiet_NaN();
+  double lower = std::numeric_limits<double>::quiet_NaN();
+  double upper = std::numeric_limits<double>::quiet_NaN();
 };
+
+/// Effective plants below which intervals are rough.
+inline constexpr double fewest_effective_plants = 20.0;
 
 /// An uncertain input before and after the records, in the unit of UncertainInput.
 struct InputUpdate {
@@ -43,16 +50,21 @@ struct PlantUpdate {
   /// The mismatch is within the 99 % quantile of chi-squared: the antenna can be one of the set.
   bool explained = false;
   std::vector<InputUpdate> inputs;  // those that vary, the one that moves or narrows most first
-  /// Boresight rms (rad of motor) of the plan's last stage in the design wind.
+  /// Boresight rms (rad of motor) of the plan's last stage in the design wind, of the plants that
+  /// are stable there.
   PlantEstimate final_rms_before, final_rms_after;
   /// Faults that fit better than every plant of the set, the best first, if `explained` is false.
   std::vector<FaultFit> faults;
 };
 
 /// Standard deviation to which a prediction is compared with a measurement: its uncertainty and
-/// what the linear model leaves out (3 % of a time, overshoot_resolution, a tenth of an rms, whose
-/// sensor noise is stated, not measured), added in quadrature.
+/// what the linear model leaves out (time_resolution, overshoot_resolution, a tenth of an rms,
+/// whose sensor noise is stated, and of the error of a move), added in quadrature.
 double comparison_deviation(const MeasuredQuantity& measured);
+
+/// The measurements of each stage in one, in order: of a quantity that several records have the
+/// mean, as what the model leaves out is common to them.
+std::vector<MeasuredStage> combined(const std::vector<MeasuredStage>& records);
 
 /// Draws `count` plants of the distribution, weighted by the likelihood of the records, each
 /// quantity normal and independent of the others; twice as many again, up to 16 times, while fewer

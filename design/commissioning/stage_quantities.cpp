@@ -99,11 +99,19 @@ std::optional<double> abort_limit(StageQuantity quantity, const CommissioningSta
 PassInterval pass_interval(StageQuantity quantity, const CommissioningStage& stage,
                            double rms_allowance) {
   const PlantBand& band = expected_of(quantity, stage.expected);
+  PassInterval interval{band.lower, band.upper};
   if (quantity == StageQuantity::overshoot) {
-    return {std::max(0.0, band.lower - overshoot_resolution), band.upper + overshoot_resolution};
+    interval = {std::max(0.0, band.lower - overshoot_resolution),
+                band.upper + overshoot_resolution};
+  } else if (quantity == StageQuantity::rise_time || quantity == StageQuantity::settling_time) {
+    interval = {band.lower * (1.0 - time_resolution), band.upper * (1.0 + time_resolution)};
+  } else if (is_rms(quantity)) {
+    interval = {band.lower / rms_allowance, band.upper * rms_allowance};
   }
-  const double allowance = is_rms(quantity) ? rms_allowance : 1.0;
-  return {band.lower / allowance, band.upper * allowance};
+  if (const auto limit = abort_limit(quantity, stage)) {
+    interval.upper = std::min(interval.upper, *limit);
+  }
+  return interval;
 }
 
 StageVerdict verdict_on(StageQuantity quantity, double value, double uncertainty,

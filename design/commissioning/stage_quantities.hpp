@@ -31,12 +31,14 @@ const PlantBand& expected_of(StageQuantity quantity, const StageExpectation& exp
 /// None where the quantity has no limit of its own.
 std::optional<double> abort_limit(StageQuantity quantity, const CommissioningStage& stage);
 
-/// What a step's overshoot can be read to, a fraction of the step.
+/// What the prediction of a step on the linear plant is good for: an overshoot to a fraction of the
+/// step, a time relative.
 inline constexpr double overshoot_resolution = 0.02;
+inline constexpr double time_resolution = 0.03;
 
 /// The interval in which a measured value passes: the band over the plants; of an rms, whose sensor
-/// noise is known less well, `rms_allowance` times wider on both sides; of an overshoot wider by
-/// overshoot_resolution.
+/// noise is known less well, `rms_allowance` times wider on both sides; of overshoot and times
+/// wider by the resolutions above. It ends at the abort limit.
 struct PassInterval {
   double lower = 0.0, upper = 0.0;
 };

@@ -3,10 +3,10 @@
 #include <limits>
 #include <optional>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include <boresight/design/commissioning/stage_record.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::design {
@@ -19,14 +19,19 @@ using identification::Signal;
 
 constexpr Index fewest_samples = 100;
 constexpr double settled = 0.05;
-// A sample-to-sample change of the command is a step above this part of the largest one.
+// Changes of the command over so many samples at most are a step, which interpolation may have
+// split.
+constexpr Index samples_of_step = 10;
+// A step is above this part of the largest one, and so many times the command's usual change.
 constexpr double step_part = 0.5;
-// A change so many times the median change is a step, not a motion.
 constexpr double step_over_motion = 20.0;
+// A command this many of its smallest changes off a straight line is at rest or in steady motion.
+constexpr double steady_changes = 3.0;
 // What the response is smoothed over, in rise times: for its largest value, and for settling, which
-// one noisy sample would delay.
+// one noisy sample would delay. The error of a move: in periods of the crossover.
 constexpr double smoothing = 1.0 / 15.0;
 constexpr double smoothing_for_settling = 0.5;
+constexpr double smoothing_of_move = 1.0 / 20.0;
 
 struct Line {
   double start = 0.0, slope = 0.0;
@@ -36,10 +41,9 @@ struct Line {
 
 Line line_through(const Eigen::Ref<const VectorXd>& values) {
   const Index n = values.size();
-  if (n == 1) return {values[0], 0.0};
   const double middle = 0.5 * static_cast<double>(n - 1);
   const VectorXd from_middle = VectorXd::LinSpaced(n, -middle, middle);
-  const double slope = from_middle.dot(values) / from_middle.squaredNorm();
+  const double slope = n > 1 ? from_middle.dot(values) / from_middle.squaredNorm() : 0.0;
   return {values.mean() - slope * middle, slope};
 }
 
@@ -49,56 +53,139 @@ VectorXd without_line(const VectorXd& values) {
                                       line.at(static_cast<double>(values.size() - 1)));
 }
 
-// Samples at which the command has a new value.
-std::vector<Index> steps_of(const VectorXd& command) {
-  VectorXd change =
+// From `first`, `count` samples.
+bool all_valid(const Signal& signal, Index first, Index count) {
+  for (Index k = first; k < first + count; ++k) {
+    if (!signal.is_valid(k)) return false;
+  }
+  return true;
+}
+
+// The longest stretch without an invalid sample.
+VectorXd longest_valid(const Signal& signal) {
+  Index best = 0, best_length = 0, first = 0;
+  for (Index k = 0; k <= signal.values.size(); ++k) {
+    if (k < signal.values.size() && signal.is_valid(k)) continue;
+    if (k - first > best_length) {
+      best = first;
+      best_length = k - first;
+    }
+    first = k + 1;
+  }
+  return signal.values.segment(best, best_length);
+}
+
+bool is_steady(const VectorXd& command) {
+  const VectorXd change =
       (command.tail(command.size() - 1) - command.head(command.size() - 1)).cwiseAbs();
-  const double largest = change.maxCoeff();
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const double one : change) {
+    if (one > 0.0) smallest = std::min(smallest, one);
+  }
+  const double off = without_line(command).cwiseAbs().maxCoeff();
+  constexpr double rounding = 1e-9;
+  return off <= rounding * command.cwiseAbs().maxCoeff() || off <= steady_changes * smallest;
+}
+
+// A change of the command: `first` is its last sample before it, `behind` the first after it.
+struct CommandStep {
+  Index first = 0, behind = 0;
+};
+
+std::vector<CommandStep> steps_of(const VectorXd& command) {
+  const VectorXd change = command.tail(command.size() - 1) - command.head(command.size() - 1);
   VectorXd sorted = change;
   std::ranges::nth_element(sorted, sorted.begin() + sorted.size() / 2);
-  if (!(largest > step_over_motion * sorted[sorted.size() / 2])) return {};
-  std::vector<Index> steps;
-  for (Index k = 0; k < change.size(); ++k) {
-    if (change[k] > step_part * largest) steps.push_back(k + 1);
+  const double usual = sorted[sorted.size() / 2];
+  const VectorXd beyond = (change.array() - usual).abs();
+  const double largest = beyond.maxCoeff();
+  if (!(largest > step_over_motion * std::abs(usual))) return {};
+  // Of a step split into two samples the smaller part is still far above a motion's changes.
+  constexpr double part_of_split = 0.1;
+  std::vector<CommandStep> runs;
+  for (Index k = 0; k < beyond.size(); ++k) {
+    if (beyond[k] <= part_of_split * largest) continue;
+    if (!runs.empty() && k < runs.back().behind + 2) {
+      runs.back().behind = k + 1;
+    } else {
+      runs.push_back({k, k + 1});
+    }
   }
-  return steps;
+  // A longer run is a motion.
+  std::erase_if(runs,
+                [](const CommandStep& run) { return run.behind - run.first > samples_of_step; });
+  const auto size_of = [&](const CommandStep& run) {
+    return std::abs(change.segment(run.first, run.behind - run.first).sum());
+  };
+  double largest_step = 0.0;
+  for (const CommandStep& run : runs) largest_step = std::max(largest_step, size_of(run));
+  std::erase_if(runs,
+                [&](const CommandStep& run) { return size_of(run) <= step_part * largest_step; });
+  return runs;
 }
 
 // Responses over their steps, on the samples of the shortest.
 struct StepResponses {
   std::vector<VectorXd> single;
-  double noise = 0.0;  // standard, before the steps, over the step
-  double size = 0.0;   // mean of the steps' sizes
+  double noise = 0.0;                   // standard, before the steps, over the step
+  double size = 0.0;                    // mean of the steps' sizes
+  std::size_t masked = 0, hurried = 0;  // left out: invalid samples; too little time
 };
 
-StepResponses step_responses(const VectorXd& command, const VectorXd& response,
-                             const std::vector<Index>& steps) {
-  constexpr Index fewest = 10;  // samples before a step and of one
-  Index shortest = command.size();
-  std::vector<Index> usable;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const Index before = steps[i] - (i == 0 ? 0 : steps[i - 1]);
-    const Index after = (i + 1 < steps.size() ? steps[i + 1] : command.size()) - steps[i];
-    if (before < fewest || after < fewest) continue;
-    usable.push_back(steps[i]);
-    shortest = std::min({shortest, after, i == 0 ? after : before});
-  }
+StepResponses step_responses(const Signal& command, const Signal& response,
+                             const std::vector<CommandStep>& steps, Index least) {
   StepResponses found;
-  for (const Index step : usable) {
-    const Index before = std::min(step, shortest);
-    // What the step before left decays in the first half.
-    const Index fitted = std::max<Index>(fewest, before / 2);
-    const Line from = line_through(command.segment(step - fitted, fitted));
-    const Line seen = line_through(response.segment(step - fitted, fitted));
-    const double size = command[step] - from.at(static_cast<double>(fitted));
-    if (size == 0.0) continue;
-    VectorXd over(shortest);
-    for (Index k = 0; k < shortest; ++k) {
-      over[k] = (response[step + k] - seen.at(static_cast<double>(fitted + k))) / size;
+  const Index samples = command.values.size();
+  const auto length_of = [&](std::size_t i) {
+    return (i + 1 < steps.size() ? steps[i + 1].first : samples) - steps[i].behind;
+  };
+  Index shortest = samples;
+  std::vector<CommandStep> usable;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const Index before = steps[i].first - (i == 0 ? 0 : steps[i - 1].behind);
+    const Index needed = std::max(least, std::min(length_of(i), least * 4));
+    if (length_of(i) < least || before < needed / 4) {
+      ++found.hurried;
+      continue;
     }
-    VectorXd noise = response.segment(step - fitted, fitted);
-    for (Index k = 0; k < fitted; ++k) noise[k] -= seen.at(static_cast<double>(k));
-    found.noise += noise.norm() / std::sqrt(static_cast<double>(fitted)) / std::abs(size);
+    usable.push_back(steps[i]);
+    shortest = std::min(shortest, length_of(i));
+  }
+  for (std::size_t i = 0; i < usable.size(); ++i) {
+    const Index step = usable[i].behind;
+    const Index before = std::min(usable[i].first, shortest);
+    // What the step before left decays in the first half.
+    const Index fitted = std::max<Index>(2, before / 2);
+    const Index from = usable[i].first + 1 - fitted;
+    if (!all_valid(response, from, step + shortest - from) ||
+        !all_valid(command, from, step + shortest - from)) {
+      ++found.masked;
+      continue;
+    }
+    // The motion is the command's: the response's own slope is known less well.
+    const Line motion = line_through(command.values.segment(from, fitted));
+    const auto moved = [&](Index sample) {
+      return motion.slope * static_cast<double>(sample - from);
+    };
+    double start = 0.0;
+    for (Index k = from; k < from + fitted; ++k) start += response.values[k] - moved(k);
+    start /= static_cast<double>(fitted);
+    double size = 0.0;
+    for (Index k = step; k < step + shortest; ++k) {
+      size += command.values[k] - motion.start - moved(k);
+    }
+    size /= static_cast<double>(shortest);
+    if (size == 0.0) continue;
+    VectorXd over(shortest), noise(fitted);
+    for (Index k = 0; k < shortest; ++k) {
+      over[k] = (response.values[step + k] - start - moved(step + k)) / size;
+    }
+    for (Index k = 0; k < fitted; ++k) {
+      noise[k] = response.values[from + k] - start - moved(from + k);
+    }
+    // Of a sample, and of the start that is taken off.
+    found.noise += noise.norm() / std::sqrt(static_cast<double>(fitted)) / std::abs(size) *
+                   std::sqrt(1.0 + 1.0 / static_cast<double>(fitted));
     found.size += std::abs(size);
     found.single.push_back(std::move(over));
   }
@@ -178,13 +265,25 @@ double uncertainty_of(const StepResponses& responses, double sample_time, const 
   return std::sqrt(square / (count - 1.0) / count);
 }
 
-void measure_steps(const VectorXd& command, const VectorXd& response,
-                   const std::vector<Index>& steps, double sample_time,
-                   StageMeasurement& measurement) {
-  const StepResponses responses = step_responses(command, response, steps);
+void measure_steps(const Signal& command, const Signal& response,
+                   const std::vector<CommandStep>& steps, double sample_time,
+                   const CommissioningStage& stage, StageMeasurement& measurement) {
+  // Twice the rise that is expected.
+  const double rise = stage.expected.rise_time.nominal;
+  const auto least = static_cast<Index>(std::max(20.0, std::ceil(2.0 * rise / sample_time)));
+  const StepResponses responses = step_responses(command, response, steps, least);
+  if (responses.masked > 0) {
+    measurement.remarks.push_back(
+        fmt::format("{} of {} steps are left out: they hold missing or clipped samples",
+                    responses.masked, steps.size()));
+  }
+  if (responses.hurried > 0) {
+    measurement.remarks.push_back(
+        fmt::format("{} of {} steps are left out: they last less than {:.3g} s, or follow too soon",
+                    responses.hurried, steps.size(), static_cast<double>(least) * sample_time));
+  }
   if (responses.single.empty()) {
-    measurement.remarks.emplace_back(
-        "the command steps, but no step has 10 samples before and behind it");
+    measurement.remarks.emplace_back("the command steps, but no step can be measured");
     return;
   }
   VectorXd mean = VectorXd::Zero(responses.single.front().size());
@@ -228,12 +327,12 @@ double relative_uncertainty(const VectorXd& values) {
   const double variance = values.squaredNorm() / static_cast<double>(n);
   if (!(variance > 0.0)) return 0.0;
   double sum = 1.0;
-  for (Index lag = 1; lag < n / 4; ++lag) {
+  for (Index lag = 1; lag < n / 10; ++lag) {
     const double correlation =
         values.head(n - lag).dot(values.tail(n - lag)) / (static_cast<double>(n - lag) * variance);
-    // From here on it is noise of the estimate.
-    if (correlation < 0.05) break;
-    sum += 2.0 * correlation * correlation;
+    // Less what the estimate's own noise adds.
+    const double noise = 2.0 / static_cast<double>(n - lag);
+    sum += 2.0 * std::max(0.0, correlation * correlation - noise);
   }
   return std::sqrt(0.5 * sum / static_cast<double>(n));
 }
@@ -244,9 +343,35 @@ void measure_rms(StageQuantity quantity, const std::optional<Signal>& signal, do
     measurement.remarks.push_back(fmt::format("no channel for the {}", to_string(quantity)));
     return;
   }
-  const VectorXd values = without_line(signal->values);
+  const VectorXd valid = longest_valid(*signal);
+  if (valid.size() < fewest_samples) {
+    measurement.remarks.push_back(fmt::format("the {} has fewer than {} valid samples in a row",
+                                              to_string(quantity), fewest_samples));
+    return;
+  }
+  const VectorXd values = without_line(valid);
   const double rms = scale * values.norm() / std::sqrt(static_cast<double>(values.size()));
   measurement.quantities.push_back({quantity, rms, rms * relative_uncertainty(values), 0});
+}
+
+void measure_move(const Signal& error, const CommissioningStage& stage, double sample_time,
+                  double gear_ratio, StageMeasurement& measurement) {
+  if (!all_valid(error, 0, error.values.size())) {
+    measurement.remarks.emplace_back("the record of the move holds missing or clipped samples");
+    return;
+  }
+  // About what was there before the move: a static error is none of the motion.
+  const Index before = error.values.size() / 20;
+  const VectorXd about = error.values.array() - error.values.head(before).mean();
+  const double reach =
+      0.5 * smoothing_of_move * two_pi / (stage.expected.crossover.nominal * sample_time);
+  const VectorXd smooth = smoothed(about, static_cast<Index>(std::clamp(reach, 0.0, 1e6)));
+  // The largest value of noise lies some two deviations off.
+  constexpr double of_largest = 2.0;
+  const double noise = smooth.head(before).norm() / std::sqrt(static_cast<double>(before));
+  measurement.quantities.push_back({StageQuantity::move_error,
+                                    gear_ratio * smooth.cwiseAbs().maxCoeff(),
+                                    gear_ratio * of_largest * noise, 0});
 }
 
 bool predicts(const CommissioningStage& stage, StageQuantity quantity) {
@@ -276,32 +401,27 @@ StageMeasurement measure_stage(const ServoRecord& record, const CommissioningSta
                     record.name, fewest_samples, longest->values.size(), record.sample_time));
   }
   StageMeasurement measurement;
-  const std::vector<Index> steps = command ? steps_of(command->values) : std::vector<Index>{};
-  if (!steps.empty() && !stage.controller.feedforward) {
-    if (response) {
-      measure_steps(command->values, response->values, steps, record.sample_time, measurement);
-    } else {
-      measurement.remarks.push_back(fmt::format("the command steps, but there is no {} beside it",
-                                                open ? "tachometer" : "encoder"));
-    }
-  } else if (predicts(stage, StageQuantity::move_error) && command && record.position_error &&
-             without_line(command->values).cwiseAbs().maxCoeff() >
-                 10.0 * record.position_error->values.cwiseAbs().maxCoeff()) {
-    // About what was there before the move: a static error is none of the motion.
-    const VectorXd& whole = record.position_error->values;
-    const VectorXd error = whole.array() - whole.head(whole.size() / 20).mean();
-    measurement.quantities.push_back({StageQuantity::move_error,
-                                      gear_ratio * error.cwiseAbs().maxCoeff(),
-                                      gear_ratio * error.tail(error.size() / 10).norm() /
-                                          std::sqrt(static_cast<double>(error.size() / 10)),
-                                      0});
-  } else {
+  if (!command || is_steady(command->values)) {
     measure_rms(StageQuantity::calm_valve, record.valve_command, 1.0, measurement);
     if (open) {
       measure_rms(StageQuantity::calm_tachometer, record.motor_rate, 1.0, measurement);
     } else {
       measure_rms(StageQuantity::calm_encoder, record.position_error, gear_ratio, measurement);
     }
+  } else if (const auto steps = steps_of(command->values); !steps.empty()) {
+    if (stage.controller.feedforward) {
+      measurement.remarks.emplace_back("the command steps: the stage is checked by a move");
+    } else if (!response) {
+      measurement.remarks.push_back(fmt::format("the command steps, but no {} is beside it",
+                                                open ? "tachometer" : "encoder"));
+    } else {
+      measure_steps(*command, *response, steps, record.sample_time, stage, measurement);
+    }
+  } else if (stage.controller.feedforward && record.position_error) {
+    measure_move(*record.position_error, stage, record.sample_time, gear_ratio, measurement);
+  } else {
+    measurement.remarks.emplace_back(
+        "the command moves without a step: neither a step nor still air can be read from it");
   }
   std::erase_if(measurement.quantities, [&](const MeasuredQuantity& one) {
     if (predicts(stage, one.quantity)) return false;

@@ -25,21 +25,23 @@ struct StageMeasurement {
   std::vector<std::string> remarks;
 };
 
-/// Measures a record of one stage.
+/// Measures a record of one stage. Samples that are not valid are not used.
 ///
 /// A command that steps (rate_command and motor_rate with the position loop open, position_command
-/// and encoder with it closed) gives rise time, overshoot and settling time. The step may start
-/// from a steady motion: a straight line through what is before it, up to the step's own length, is
-/// taken off command and response. The responses, over their steps, are averaged, and smoothed over
-/// a fifteenth of the rise time, as the largest value of a noisy one is too large; for settling
-/// over half of it. A step lasts to the next; settling that takes longer is not measured. The
-/// uncertainty is that of the mean of the single steps, or, of one step, that of the noise before
-/// it. A command that does not step, or none, gives the rms in still air: of valve command, of
-/// tachometer or encoder error, about a straight line. Its uncertainty is that of correlated
-/// samples: of the sum of squared autocorrelations (J. S. Bendat, A. G. Piersol, Random Data, 4th
-/// ed., 8.4).
-/// A command that moves gives the largest encoder error, of a stage with feedforward, less the mean
-/// of the first twentieth of the record, before the move.
+/// and encoder with it closed) gives rise time, overshoot and settling time. A change over ten
+/// samples at most is a step. It may start from a steady motion, which is the command's before the
+/// step. A step lasts to the next, at least two rise times, with a quarter of that before it. The
+/// responses, over their steps, are averaged, and smoothed over a fifteenth of the rise time, as
+/// the largest value of a noisy one is too large; for settling over half of it. Settling that takes
+/// longer than nine tenths of the step is not measured. The uncertainty is that of the mean of the
+/// single steps, or, of one step, that of the noise before it.
+/// A command at rest or in steady motion, or none, gives the rms in still air: of valve command, of
+/// tachometer or encoder error, about a straight line, over the longest stretch of valid samples.
+/// Its uncertainty is that of correlated samples: of the sum of squared autocorrelations (J. S.
+/// Bendat, A. G. Piersol, Random Data, 4th ed., 8.4).
+/// A command that moves without a step gives the largest encoder error of a stage with feedforward,
+/// smoothed over a twentieth of the crossover's period, less the mean of the first twentieth of the
+/// record, before the move.
 /// `gear_ratio`: motor turns per antenna turn.
 /// @throws InvalidInput for a record without any signal that the stage needs, of fewer than 100
 /// samples, or without a sample time.

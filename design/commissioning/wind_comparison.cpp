@@ -12,6 +12,7 @@
 #include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/distribution_quantiles.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::design {
@@ -22,7 +23,9 @@ constexpr double segment_fraction = 1.0 / 8.0;
 // Of one over the segment: the first bin loses power to the straight line.
 constexpr double first_bin_edge = 1.5;
 constexpr std::size_t records_of_regression = 3;
-constexpr double equal_range = 1.05, equal_speeds = 1.1;
+constexpr double equal_speeds = 1.1;
+// Of the rms of one controller between records in the same mean wind, relative.
+constexpr double scatter_in_equal_wind = 0.1;
 constexpr double power_below_band = 0.05;  // and as much above
 constexpr double different_direction = 30.0 * degree;
 
@@ -144,6 +147,12 @@ class Comparison {
     }
     result_.lowest = first_bin_edge / segment;
     result_.highest = highest;
+    if (!(result_.lowest < result_.highest)) {
+      throw InvalidInput(fmt::format(
+          "compare_in_wind: expected records whose lengths and sampling rates leave a "
+          "common band, found {:.3g} Hz from the shortest and {:.3g} Hz from the slowest",
+          result_.lowest, result_.highest));
+    }
     evaluate(before, segment, result_.before, evaluated_[0]);
     evaluate(after, segment, result_.after, evaluated_[1]);
   }
@@ -278,7 +287,7 @@ class Comparison {
 
   void regress() {
     const auto [lowest, highest] = shared_range();
-    if (lowest > equal_range * highest) {
+    if (lowest > equal_wind_range * highest) {
       result_.kind = WindComparisonKind::no_overlap;
       return;
     }
@@ -307,7 +316,8 @@ class Comparison {
   RatioAtSpeed at_speed(const WindErrorFit& fit, double speed) const {
     const RatioBand ratio = fit.ratio(speed, options_.confidence);
     const auto outside = [speed](const ConditionInWind& condition) {
-      return speed * equal_range < condition.slowest || speed > equal_range * condition.fastest;
+      return speed * equal_wind_range < condition.slowest ||
+             speed > equal_wind_range * condition.fastest;
     };
     return {speed,
             fit.error(false, speed, options_.confidence),
@@ -326,20 +336,37 @@ class Comparison {
       return;
     }
     result_.kind = WindComparisonKind::equal_wind;
+    const double reference = std::sqrt(slowest * fastest);
     std::array<BandPower, 2> sum{};
     std::array<RmsBand, 2> error{};
+    std::array<double, 2> log_speed{};
+    double scatter = 0.0;  // variance of the logarithm of the ratio
     for (std::size_t side = 0; side < 2; ++side) {
       BandPower& whole = sum.at(side);
-      for (const BandPower& one : evaluated_.at(side).power) {
-        whole.mean_square += one.freedom * one.mean_square;
+      const auto& records = condition(side).records;
+      const auto count = static_cast<double>(records.size());
+      for (std::size_t i = 0; i < records.size(); ++i) {
+        const BandPower& one = evaluated_.at(side).power[i];
+        const double faster = std::log(records[i].mean_speed / reference);
+        whole.mean_square +=
+            one.freedom * one.mean_square * std::exp(-usual_wind_exponent * faster);
         whole.freedom += one.freedom;
+        log_speed.at(side) += faster / count;
       }
       whole.mean_square /= whole.freedom;
+      scatter += scatter_in_equal_wind * scatter_in_equal_wind / count;
       error.at(side) = rms_interval(whole, options_.confidence);
     }
-    const RatioBand ratio = rms_ratio(sum[0], sum[1], options_.confidence);
-    result_.at_reference = {
-        std::sqrt(slowest * fastest), error[0], error[1], ratio, change_of(ratio), false, false};
+    const double of_exponent = 0.5 * usual_wind_exponent_deviation * (log_speed[1] - log_speed[0]);
+    const double more = numerics::student_quantile(0.5 + 0.5 * options_.confidence, 1e6);
+    const double added = more * more * (scatter + of_exponent * of_exponent);
+    RatioBand ratio = rms_ratio(sum[0], sum[1], options_.confidence);
+    const auto wider = [&](double end) {
+      return std::sqrt(std::pow(std::log(end / ratio.value), 2) + added);
+    };
+    ratio = {ratio.value, ratio.value * std::exp(-wider(ratio.lower)),
+             ratio.value * std::exp(wider(ratio.upper))};
+    result_.at_reference = {reference, error[0], error[1], ratio, change_of(ratio), false, false};
   }
 
   ConditionInWind& condition(std::size_t side) {

@@ -22,6 +22,9 @@ struct WindyRecord {
   std::optional<identification::Signal> wind_direction;
 };
 
+/// Factor between wind speeds that count as equal in the ranges of two conditions.
+inline constexpr double equal_wind_range = 1.05;
+
 struct WindComparisonOptions {
   double confidence = 0.95;
   /// m/s; absent: the median of the records' mean speeds where both conditions have records.
@@ -116,8 +119,10 @@ struct WindComparison {
 /// is of the slow gusts alone that mast and dish have in common: a controller may be better against
 /// these and worse otherwise.
 ///
-/// Wind speeds within 5 % of each other count as equal, in the ranges of the conditions; those of
-/// `equal_wind` differ by at most 10 %.
+/// Wind speeds within equal_wind_range count as equal, in the ranges of the conditions. Those of
+/// `equal_wind` differ by at most 10 %. There each variance is scaled to the reference wind by
+/// usual_wind_exponent, and the interval of Fisher's F is widened by what is not known of that
+/// exponent and by the scatter of records in the same mean wind, 10 % of an rms each.
 /// @throws InvalidInput for a condition without records, signals of different lengths, values that
 /// are not finite, fewer than 256 samples, wind speeds that are not positive on average, a constant
 /// error, a record without a segment of valid samples, and options out of range.

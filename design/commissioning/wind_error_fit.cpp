@@ -16,7 +16,6 @@ namespace boresight::design {
 namespace {
 
 constexpr int min_records = 3;
-constexpr double exponent_mean = 5.3, exponent_deviation = 0.7;
 constexpr double gust_mean = 0.5, gust_deviation = 0.5;
 
 using Matrix = Eigen::Matrix<double, 6, 6>;
@@ -51,7 +50,7 @@ void check(const std::vector<ErrorInWind>& records, double reference) {
 WindErrorFit::WindErrorFit(std::vector<ErrorInWind> records, double reference_speed)
     : records_(std::move(records)),
       reference_(reference_speed),
-      exponent_(exponent_mean),
+      exponent_(usual_wind_exponent),
       gust_exponent_(gust_mean) {
   check(records_, reference_speed);
   std::vector<double> freedom, variances;
@@ -123,8 +122,9 @@ WindErrorFit::Line WindErrorFit::fitted_line(bool after, double exponent,
 double WindErrorFit::deviance(double exponent, double gust_exponent) const {
   const std::array lines{fitted_line(false, exponent, gust_exponent),
                          fitted_line(true, exponent, gust_exponent)};
-  double sum = dispersion_ * (square((exponent - exponent_mean) / exponent_deviation) +
-                              square((gust_exponent - gust_mean) / gust_deviation));
+  double sum =
+      dispersion_ * (square((exponent - usual_wind_exponent) / usual_wind_exponent_deviation) +
+                     square((gust_exponent - gust_mean) / gust_deviation));
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const Line& line = lines.at(records_[i].after ? 1 : 0);
     const double mean =
@@ -142,8 +142,8 @@ void WindErrorFit::minimise() {
   for (int round = 0; round < rounds; ++round) {
     exponent_ = numerics::golden_section_maximum(
         [&](double exponent) { return -deviance(exponent, gust_exponent_); },
-        exponent_mean - reach * exponent_deviation, exponent_mean + reach * exponent_deviation,
-        tolerance);
+        usual_wind_exponent - reach * usual_wind_exponent_deviation,
+        usual_wind_exponent + reach * usual_wind_exponent_deviation, tolerance);
     gust_exponent_ = numerics::golden_section_maximum(
         [&](double exponent) { return -deviance(exponent_, exponent); },
         gust_mean - reach * gust_deviation, gust_mean + reach * gust_deviation, tolerance);
@@ -186,7 +186,7 @@ void WindErrorFit::estimate_dispersion() {
       information(place, place) = 1e300;
     }
   }
-  const std::array prior{dispersion_ / square(exponent_deviation),
+  const std::array prior{dispersion_ / square(usual_wind_exponent_deviation),
                          dispersion_ / square(gust_deviation)};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto place = static_cast<Eigen::Index>(4 + k);

@@ -7,6 +7,10 @@
 
 namespace boresight::design {
 
+/// Exponent of the mean wind speed in the variance of an error, and its standard deviation between
+/// antennas and controllers: the prior of WindErrorFit.
+inline constexpr double usual_wind_exponent = 5.3, usual_wind_exponent_deviation = 0.7;
+
 /// One record's error in its wind.
 struct ErrorInWind {
   bool after = false;      // which of the two conditions

@@ -80,6 +80,8 @@ std::optional<PredictedChange> predicted_change(const RmsPair& nominal,
 
 std::optional<bool> within_budget(const ChangeStudy& study) {
   const auto& at = study.comparison.at_design;
+  // The encoder does not show the structure's flexure beyond it.
+  if (study.error != RecordedError::boresight) return std::nullopt;
   if (!study.budget || !at || at->after_extrapolated) return std::nullopt;
   return at->after.upper <= *study.budget;
 }
@@ -90,11 +92,13 @@ std::vector<ChangeCheck> checks_of(const ChangeStudy& study) {
   const auto& at = comparison.at_reference;
   const bool directions = comparison.before.wind_direction && comparison.after.wind_direction;
   return {
-      {wind_overlap, at.has_value()},
+      {wind_overlap,
+       std::max(comparison.before.slowest, comparison.after.slowest) <=
+           equal_wind_range * std::min(comparison.before.fastest, comparison.after.fastest)},
       {wind_direction, directions ? std::optional(!comparison.directions_differ) : std::nullopt},
       {improvement, at ? std::optional(at->change == Change::better) : std::nullopt},
       {prediction, study.predicted ? std::optional(study.predicted->held) : std::nullopt},
-      {stability, study.stable_plants == study.plants},
+      {stability, study.stable_nominal && study.stable_plants == study.plants},
       {design_wind_rms, within_budget(study)},
   };
 }
@@ -194,6 +198,7 @@ ChangeStudy study_change(const Mission& mission, const PlantEnsemble& ensemble,
   std::vector<RmsPair> plants(ensemble.members.size());
   numerics::for_each_index(plants.size(), options.threads,
                            [&](std::size_t i) { plants[i] = rms_on(ensemble.members[i].plant); });
+  study.stable_nominal = nominal.stable_after;
   study.plants = plants.size();
   study.stable_plants =
       static_cast<std::size_t>(std::ranges::count(plants, true, &RmsPair::stable_after));

@@ -51,8 +51,9 @@ enum class ChangeCheckKind {
   improvement,      // the error is significantly smaller than before
   prediction,       // the measured and predicted ratios agree; unknown without a prediction
   stability,        // the new controller is stable on the mission's plant and every ensemble member
-  design_wind_rms,  // at the design wind the upper limit of the rms is within the tightest budget;
-                    // unknown if extrapolated or if the mission has no budget
+  design_wind_rms,  // at the design wind the upper limit of the boresight error's rms is within the
+                    // tightest budget; unknown if extrapolated, of position errors, or if the
+                    // mission has no budget
 };
 
 struct ChangeCheck {
@@ -69,6 +70,7 @@ struct ChangeStudy {
   /// Absent without a controller before, without a comparison, or where a loop is unstable on the
   /// mission's plant.
   std::optional<PredictedChange> predicted;
+  bool stable_nominal = false;    // the controller after on the mission's own plant
   std::size_t plants = 0;         // of the ensemble
   std::size_t stable_plants = 0;  // with the controller after
   std::vector<ChangeCheck> checks;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_mat.hpp>
 #include <boresight/io/records/recorded_unit.hpp>
 #include <boresight/numerics/error.hpp>

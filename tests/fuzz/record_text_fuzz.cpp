@@ -5,8 +5,11 @@
 #include <string_view>
 
 #include <boresight/identification/records/record_defects.hpp>
+#include <boresight/io/case/case_file.hpp>
+#include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/record_text.hpp>
 #include <boresight/io/records/recorded_unit.hpp>
+#include <boresight/io/records/servo_columns.hpp>
 #include <boresight/numerics/error.hpp>
 
 using namespace boresight;
@@ -41,6 +44,13 @@ void clean(const io::RecordTable& table) {
   if (!(record->sample_time > 0.0)) std::abort();
 }
 
+void choose_servo(const io::RecordTable& table) {
+  try {
+    io::choose_servo_columns(io::Case(), table);
+  } catch (const InvalidInput&) {  // refused in words, as it should be
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -52,6 +62,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       io::recorded_unit(column.unit);
     }
     clean(table);
+    choose_servo(table);
     io::choose_columns(table, {}, 1);
   } catch (const InvalidInput&) {  // refused in words, as it should be
   }

@@ -166,8 +166,10 @@ TEST(Commission, WritesSheetsBodePlotsAndTheControllerOfEveryStage) {
 TEST(Commission, TriesFreshPlantsAndWrongAntennas) {
   const ScratchFolder folder;
   const auto plan = plan_of(small_case(folder), {"--plants", "20"});
-  ASSERT_EQ(plan.at("trials").size(), plan.at("stages").size());
-  for (const auto& trial : plan.at("trials")) {
+  const auto& stages = plan.at("trials").at("stages");
+  ASSERT_EQ(stages.size(), plan.at("stages").size());
+  EXPECT_EQ(plan.at("trials").at("stable"), 20);
+  for (const auto& trial : stages) {
     EXPECT_EQ(trial.at("plants"), 20);
     EXPECT_EQ(trial.at("stable"), 20);
     EXPECT_LE(trial.at("passing"), trial.at("plants"));

@@ -22,6 +22,7 @@ TEST(ChangeFigures, ShowEveryRecordAndWhatIsCompared) {
               testing::ElementsAre(testing::DoubleEq(2.0), testing::DoubleEq(4.0)));
   EXPECT_THAT(panel.series[1].labels, testing::ElementsAre("c"));
   EXPECT_EQ(panel.y.unit, "mdeg");
+  EXPECT_EQ(panel.y.label, "boresight error rms");
 
   study.comparison.at_reference =
       design::RatioAtSpeed{6.0,

@@ -103,6 +103,61 @@ TEST(MeasureStage, StatesWhatNoiseLeavesUncertain) {
   }
 }
 
+// On another time base a step is split over two samples.
+TEST(MeasureStage, ReadsStepsThatInterpolationHasSplit) {
+  const CommissioningStage& stage = stage_with(false);
+  const StageObservation expected = observed(stage);
+  for (const double part : {0.3, 0.6, 0.9}) {
+    auto record = square_wave(stage, 0.0, 4);
+    for (auto* signal : {&*record.position_command, &*record.encoder}) {
+      const VectorXd before = signal->values;
+      const Index n = before.size();
+      signal->values.tail(n - 1) = part * before.tail(n - 1) + (1.0 - part) * before.head(n - 1);
+    }
+    const auto measured = measure_stage(record, stage, 1.0);
+    EXPECT_EQ(quantity_of(measured, StageQuantity::rise_time).steps, 4U);
+    EXPECT_NEAR(quantity_of(measured, StageQuantity::overshoot).value, expected.overshoot, 0.01);
+    EXPECT_NEAR(measured.step_size, 3.0, 0.05);
+  }
+}
+
+TEST(MeasureStage, LeavesOutStepsWithSamplesThatAreNotValid) {
+  const CommissioningStage& stage = stage_with(true);
+  const StageObservation expected = observed(stage);
+  auto record = square_wave(stage, 0.0, 4);
+  const Index n = record.motor_rate->values.size();
+  // A gap in the second step's rise, bridged by a straight line.
+  const Index gap = 2 * n / 5;
+  record.motor_rate->valid.assign(static_cast<std::size_t>(n), true);
+  for (Index k = gap; k < gap + 50; ++k) {
+    record.motor_rate->valid[static_cast<std::size_t>(k)] = false;
+    record.motor_rate->values[k] = 0.0;
+  }
+  const auto measured = measure_stage(record, stage, 1.0);
+  EXPECT_EQ(quantity_of(measured, StageQuantity::rise_time).steps, 3U);
+  EXPECT_NEAR(quantity_of(measured, StageQuantity::rise_time).value, expected.rise_time,
+              0.02 * expected.rise_time + sample_time);
+  EXPECT_THAT(measured.remarks, testing::Contains(HasSubstr("1 of 4 steps are left out")));
+}
+
+// Not the rms in still air, and no step either.
+TEST(MeasureStage, ReadsNothingFromAMotionInAStageOfSteps) {
+  const CommissioningStage& stage = stage_with(false);
+  identification::ServoRecord record;
+  record.name = "scan";
+  record.sample_time = sample_time;
+  VectorXd command(2000);
+  for (Index k = 0; k < command.size(); ++k) {
+    command[k] = 0.01 * std::abs(static_cast<double>(k) - 1000.0);
+  }
+  record.position_command = identification::Signal{command, {}};
+  record.encoder = identification::Signal{command, {}};
+  record.position_error = identification::Signal{VectorXd::Zero(2000), {}};
+  const auto measured = measure_stage(record, stage, 1.0);
+  EXPECT_TRUE(measured.quantities.empty());
+  EXPECT_THAT(measured.remarks, testing::Contains(HasSubstr("moves without a step")));
+}
+
 TEST(MeasureStage, DoesNotDependOnTheUnitOrTheSignOfTheStep) {
   const CommissioningStage& stage = stage_with(true);
   auto record = square_wave(stage, 0.01, 4);

@@ -76,15 +76,24 @@ VectorXd longest_valid(const Signal& signal) {
 }
 
 bool is_steady(const VectorXd& command) {
-  const VectorXd change =
-      (command.tail(command.size() - 1) - command.head(command.size() - 1)).cwiseAbs();
-  double smallest = std::numeric_limits<double>::infinity();
-  for (const double one : change) {
-    if (one > 0.0) smallest = std::min(smallest, one);
-  }
-  const double off = without_line(command).cwiseAbs().maxCoeff();
   constexpr double rounding = 1e-9;
-  return off <= rounding * command.cwiseAbs().maxCoeff() || off <= steady_changes * smallest;
+  const double off = without_line(command).cwiseAbs().maxCoeff();
+  if (off <= rounding * command.cwiseAbs().maxCoeff()) return true;
+  // A slow motion in the steps of its resolution, all in one direction.
+  constexpr int fewest_changes = 20;
+  constexpr double one_way = 0.9;
+  double smallest = std::numeric_limits<double>::infinity();
+  double sum = 0.0;
+  int changes = 0;
+  for (Index k = 1; k < command.size(); ++k) {
+    const double change = std::abs(command[k] - command[k - 1]);
+    if (change == 0.0) continue;
+    smallest = std::min(smallest, change);
+    sum += change;
+    ++changes;
+  }
+  return changes >= fewest_changes && off <= steady_changes * smallest &&
+         std::abs(command[command.size() - 1] - command[0]) >= one_way * sum;
 }
 
 // A change of the command: `first` is its last sample before it, `behind` the first after it.

@@ -140,6 +140,26 @@ TEST(MeasureStage, LeavesOutStepsWithSamplesThatAreNotValid) {
   EXPECT_THAT(measured.remarks, testing::Contains(HasSubstr("1 of 4 steps are left out")));
 }
 
+// A slow motion that is commanded in steps of its resolution is as good as rest.
+TEST(MeasureStage, ReadsStillAirOnASlowQuantisedMotion) {
+  const CommissioningStage& stage = stage_with(false);
+  identification::ServoRecord record;
+  record.name = "slow";
+  record.sample_time = sample_time;
+  VectorXd command(4000), error(4000);
+  for (Index k = 0; k < command.size(); ++k) {
+    command[k] = 1e-5 * std::floor(0.02 * static_cast<double>(k));
+    error[k] = 3e-6 * std::sin(0.7 * static_cast<double>(k));
+  }
+  record.position_command = identification::Signal{command, {}};
+  record.encoder = identification::Signal{command - error, {}};
+  record.position_error = identification::Signal{error, {}};
+  const auto measured = measure_stage(record, stage, 10.0);
+  ASSERT_EQ(measured.quantities.size(), 1U);
+  EXPECT_NEAR(quantity_of(measured, StageQuantity::calm_encoder).value,
+              10.0 * 3e-6 / std::sqrt(2.0), 1e-6);
+}
+
 // Not the rms in still air, and no step either.
 TEST(MeasureStage, ReadsNothingFromAMotionInAStageOfSteps) {
   const CommissioningStage& stage = stage_with(false);

@@ -43,9 +43,11 @@ QuantityUnit unit_of(StageQuantity quantity, const PlantUnits& units) {
     case StageQuantity::calm_encoder:
       return {"mdeg rms", 1.0 / (units.gear_ratio * millidegree)};
     case StageQuantity::move_error:
+      return {"mdeg", 1.0 / (units.gear_ratio * millidegree)};
+    case StageQuantity::valve_per_rate:
       break;
   }
-  return {"mdeg", 1.0 / (units.gear_ratio * millidegree)};
+  return {units.valve_unit + " per " + units.tachometer_unit, units.valve / units.tachometer};
 }
 
 std::vector<StageCheck> stage_checks(const design::CommissioningStage& stage,

@@ -63,7 +63,7 @@ struct StageExpectation {
   PlantBand peak, crossover, rise_time, overshoot, settling_time, largest_demand, largest_torque;
   PlantBand calm_encoder, calm_tachometer, calm_torque, calm_valve;
   PlantBand windy_encoder, windy_tachometer, windy_torque, windy_valve;
-  PlantBand boresight_rms, move_error;
+  PlantBand boresight_rms, move_error, valve_per_rate;
 
   /// True if every plant is stable in this stage; only the present gains may fail this.
   bool all_stable() const { return stable == plants; }

@@ -39,9 +39,12 @@ struct StageObservation {
   double settling_time = 0.0;   // s, into 5 %; infinite if not within the time simulated
   double largest_demand = 0.0;  // rad/s of valve demand per unit of step
   double largest_torque = 0.0;  // N m per unit of step
-  RecordedRms calm;             // in still air
-  RecordedRms windy;            // in the problem's wind, and noise
-  double boresight_rms = 0.0;   // rad, in the wind; NaN with the position loop open
+  /// Change of the steady valve command over that of the steady motor rate, as the tachometer shows
+  /// it: 1 + leakage rate x viscous friction / oil stiffness of a plant as stated.
+  double valve_per_rate = 0.0;
+  RecordedRms calm;            // in still air
+  RecordedRms windy;           // in the problem's wind, and noise
+  double boresight_rms = 0.0;  // rad, in the wind; NaN with the position loop open
   double move_error = 0.0;  // rad, largest encoder error of the move; NaN with position loop open
 };
 

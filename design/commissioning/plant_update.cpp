@@ -145,6 +145,8 @@ double comparison_deviation(const MeasuredQuantity& measured) {
   } else if (measured.quantity == StageQuantity::rise_time ||
              measured.quantity == StageQuantity::settling_time) {
     model = time_resolution * measured.value;
+  } else if (measured.quantity == StageQuantity::valve_per_rate) {
+    model = valve_resolution * measured.value;
   }
   return std::hypot(measured.uncertainty, model);
 }

@@ -58,7 +58,7 @@ struct PlantUpdate {
 };
 
 /// Standard deviation to which a prediction is compared with a measurement: its uncertainty and
-/// what the linear model leaves out (time_resolution, overshoot_resolution, a tenth of an rms,
+/// what the linear model leaves out (the resolutions of stage_quantities.hpp, a tenth of an rms,
 /// whose sensor noise is stated, and of the error of a move), added in quadrature.
 double comparison_deviation(const MeasuredQuantity& measured);
 

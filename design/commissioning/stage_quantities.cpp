@@ -21,7 +21,8 @@ std::string_view to_string(StageQuantity quantity) {
                                     "valve command, still air",
                                     "tachometer, still air",
                                     "encoder error, still air",
-                                    "largest encoder error of the move"};
+                                    "largest encoder error of the move",
+                                    "steady valve command over motor rate"};
   return names.at(static_cast<std::size_t>(quantity));
 }
 
@@ -35,6 +36,9 @@ std::vector<StageQuantity> measured_quantities(const CommissioningStage& stage) 
   if (!stage.expected.all_stable()) return {};
   std::vector<StageQuantity> quantities{rise_time, overshoot, settling_time};
   if (stage.controller.feedforward) quantities = {move_error};
+  if (stage.controller.feedforward || stage.controller.position_open) {
+    quantities.push_back(valve_per_rate);
+  }
   quantities.push_back(calm_valve);
   quantities.push_back(stage.controller.position_open ? calm_tachometer : calm_encoder);
   std::erase_if(quantities, [&](StageQuantity quantity) {
@@ -58,9 +62,11 @@ double value_of(StageQuantity quantity, const StageObservation& seen) {
     case StageQuantity::calm_encoder:
       return seen.calm.encoder_error;
     case StageQuantity::move_error:
+      return seen.move_error;
+    case StageQuantity::valve_per_rate:
       break;
   }
-  return seen.move_error;
+  return seen.valve_per_rate;
 }
 
 const PlantBand& expected_of(StageQuantity quantity, const StageExpectation& expected) {
@@ -78,9 +84,11 @@ const PlantBand& expected_of(StageQuantity quantity, const StageExpectation& exp
     case StageQuantity::calm_encoder:
       return expected.calm_encoder;
     case StageQuantity::move_error:
+      return expected.move_error;
+    case StageQuantity::valve_per_rate:
       break;
   }
-  return expected.move_error;
+  return expected.valve_per_rate;
 }
 
 std::optional<double> abort_limit(StageQuantity quantity, const CommissioningStage& stage) {
@@ -105,6 +113,8 @@ PassInterval pass_interval(StageQuantity quantity, const CommissioningStage& sta
                 band.upper + overshoot_resolution};
   } else if (quantity == StageQuantity::rise_time || quantity == StageQuantity::settling_time) {
     interval = {band.lower * (1.0 - time_resolution), band.upper * (1.0 + time_resolution)};
+  } else if (quantity == StageQuantity::valve_per_rate) {
+    interval = {band.lower * (1.0 - valve_resolution), band.upper * (1.0 + valve_resolution)};
   } else if (is_rms(quantity)) {
     interval = {band.lower / rms_allowance, band.upper * rms_allowance};
   }

@@ -17,12 +17,14 @@ enum class StageQuantity {
   calm_tachometer,  // rad/s
   calm_encoder,     // rad of motor
   move_error,       // rad of motor, largest encoder error of the move
+  valve_per_rate,   // 1, change of the steady valve command over that of the motor rate
 };
 std::string_view to_string(StageQuantity quantity);
 
 /// The quantities that show whether a stage is as predicted, in the order of the work: of a step
 /// rise time, overshoot and settling time; the rms of valve command, and of tachometer (position
-/// loop open) or encoder error; with feedforward the error of the move instead of the step's.
+/// loop open) or encoder error; with feedforward the error of the move instead of the step's. Where
+/// the rate changes, the valve command that it takes.
 /// Without those that are not predicted on every plant; none where a plant is unstable.
 std::vector<StageQuantity> measured_quantities(const CommissioningStage& stage);
 
@@ -35,10 +37,12 @@ std::optional<double> abort_limit(StageQuantity quantity, const CommissioningSta
 /// step, a time relative.
 inline constexpr double overshoot_resolution = 0.02;
 inline constexpr double time_resolution = 0.03;
+/// And the steady valve command for a rate, relative: the orifices' load is not linear.
+inline constexpr double valve_resolution = 0.05;
 
 /// The interval in which a measured value passes: the band over the plants; of an rms, whose sensor
-/// noise is known less well, `rms_allowance` times wider on both sides; of overshoot and times
-/// wider by the resolutions above. It ends at the abort limit.
+/// noise is known less well, `rms_allowance` times wider on both sides; of all others but the error
+/// of a move wider by the resolutions above. It ends at the abort limit.
 struct PassInterval {
   double lower = 0.0, upper = 0.0;
 };

@@ -42,6 +42,8 @@ struct StageMeasurement {
 /// A command that moves without a step gives the largest encoder error of a stage with feedforward,
 /// smoothed over a twentieth of the crossover's period, less the mean of the first twentieth of the
 /// record, before the move.
+/// Steps of a rate and moves also give the change of the valve command over that of the motor rate,
+/// where both are recorded: of the fastest steady motion against the first twentieth of the record.
 /// `gear_ratio`: motor turns per antenna turn.
 /// @throws InvalidInput for a record without any signal that the stage needs, of fewer than 100
 /// samples, or without a sample time.

@@ -102,6 +102,24 @@ TEST(TryFaults, AValveGainIsALoopGain) {
   EXPECT_TRUE(std::isnan(seen.boresight_rms));
 }
 
+// Of four motors one turns at twice the speed for its oil: the rate takes an eighth less of it.
+TEST(TryFaults, AMotorOfHalfItsDisplacementShowsInTheValveCommand) {
+  const auto& planned = reference::fast_stages();
+  const auto trials =
+      try_faults(planned.mission, planned.plan, planned.move, usual_faults(4.0, true), {});
+  const FaultTrial& trial = trial_of(trials, "one motor with half its displacement");
+  ASSERT_TRUE(trial.detected.has_value());
+  EXPECT_EQ(*trial.detected, 0U);
+  const TrackingProblem problem = tracking_problem(planned.mission);
+  StageObserver observer(problem, problem.plant, WindTable(problem), planned.move,
+                         {.valve = 4.0 / 3.5, .torque = 4.0 / 3.5});
+  const auto& stage = planned.plan.stages.front();
+  const double shown = observer.observe(stage.controller).valve_per_rate;
+  EXPECT_NEAR(shown, 3.5 / 4.0, 0.02);
+  EXPECT_EQ(verdict_on(StageQuantity::valve_per_rate, shown, 0.0, stage, 1.2),
+            StageVerdict::outside);
+}
+
 TEST(UsualFaults, OfOneMotorWithHalfItsDisplacement) {
   const auto faults = usual_faults(1.0, false);
   const auto motor =

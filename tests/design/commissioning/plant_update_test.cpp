@@ -111,6 +111,25 @@ TEST(UpdatedPlants, RefuseWhatTheyCannotWeigh) {
   EXPECT_THROW(update({measured}, plants), InvalidInput);
 }
 
+// What the model leaves out is the same for every record of a stage.
+TEST(CombinedRecords, HaveTheMeanOfWhatSeveralMeasured) {
+  using enum StageQuantity;
+  const std::vector<MeasuredStage> records{
+      {2, {.quantities = {{rise_time, 1.0, 0.3, 2}, {overshoot, 0.1, 0.01, 2}}}},
+      {0, {.quantities = {{calm_valve, 5.0, 0.1, 0}}}},
+      {2, {.quantities = {{rise_time, 2.0, 0.4, 3}}}}};
+  const auto both = combined(records);
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_EQ(both[0].stage, 2U);
+  ASSERT_EQ(both[0].measurement.quantities.size(), 2U);
+  const MeasuredQuantity& rise = both[0].measurement.quantities[0];
+  EXPECT_EQ(rise.quantity, rise_time);
+  EXPECT_DOUBLE_EQ(rise.value, 1.5);
+  EXPECT_DOUBLE_EQ(rise.uncertainty, 0.25);
+  EXPECT_EQ(rise.steps, 5U);
+  EXPECT_DOUBLE_EQ(both[0].measurement.quantities[1].value, 0.1);
+}
+
 TEST(ComparisonDeviation, AddsWhatTheModelLeavesOut) {
   EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::rise_time, 2.0, 0.08, 1}), 0.1);
   EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::overshoot, 0.5, 0.0, 1}),

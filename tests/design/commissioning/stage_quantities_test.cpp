@@ -17,10 +17,11 @@ const CommissioningStage& first_stage() {
 TEST(StageQuantities, AreThoseOfTheLoopThatIsClosed) {
   const auto& stages = reference::planned_stages().plan.stages;
   EXPECT_THAT(measured_quantities(stages.front()),
-              ElementsAre(rise_time, overshoot, settling_time, calm_valve, calm_tachometer));
+              ElementsAre(rise_time, overshoot, settling_time, valve_per_rate, calm_valve,
+                          calm_tachometer));
   ASSERT_EQ(stages.back().kind, StageKind::feedforward);
   EXPECT_THAT(measured_quantities(stages.back()),
-              ElementsAre(move_error, calm_valve, calm_encoder));
+              ElementsAre(move_error, valve_per_rate, calm_valve, calm_encoder));
   CommissioningStage unstable = stages.front();
   unstable.expected.stable = 0;
   EXPECT_TRUE(measured_quantities(unstable).empty());
@@ -33,6 +34,7 @@ TEST(StageQuantities, AreReadFromObservationAndExpectationAlike) {
   seen.settling_time = 3.0;
   seen.calm = {4.0, 5.0, 6.0, 7.0};
   seen.move_error = 8.0;
+  seen.valve_per_rate = 9.0;
   EXPECT_EQ(value_of(rise_time, seen), 1.0);
   EXPECT_EQ(value_of(overshoot, seen), 2.0);
   EXPECT_EQ(value_of(settling_time, seen), 3.0);
@@ -40,6 +42,7 @@ TEST(StageQuantities, AreReadFromObservationAndExpectationAlike) {
   EXPECT_EQ(value_of(calm_tachometer, seen), 5.0);
   EXPECT_EQ(value_of(calm_valve, seen), 7.0);
   EXPECT_EQ(value_of(move_error, seen), 8.0);
+  EXPECT_EQ(value_of(valve_per_rate, seen), 9.0);
   StageExpectation expected;
   expected.calm_valve.nominal = 7.0;
   expected.move_error.nominal = 8.0;

@@ -140,6 +140,21 @@ TEST(MeasureStage, LeavesOutStepsWithSamplesThatAreNotValid) {
   EXPECT_THAT(measured.remarks, testing::Contains(HasSubstr("1 of 4 steps are left out")));
 }
 
+// A valve of another gain takes another command for the same rate.
+TEST(MeasureStage, ReadsTheValveCommandThatARateTakes) {
+  const CommissioningStage& stage = stage_with(true);
+  auto record = square_wave(stage, 0.005, 4);
+  record.valve_command =
+      identification::Signal{0.875 * record.motor_rate->values.array() + 4.0, {}};
+  const auto measured = measure_stage(record, stage, 1.0);
+  const auto& one = quantity_of(measured, StageQuantity::valve_per_rate);
+  EXPECT_NEAR(one.value, 0.875, 4.0 * one.uncertainty + 1e-9);
+  EXPECT_LT(one.uncertainty, 0.02);
+  EXPECT_NEAR(stage.expected.valve_per_rate.nominal, 1.0, 0.05);
+  EXPECT_EQ(verdict_on(StageQuantity::valve_per_rate, one.value, one.uncertainty, stage, 1.2),
+            StageVerdict::outside);
+}
+
 // A slow motion that is commanded in steps of its resolution is as good as rest.
 TEST(MeasureStage, ReadsStillAirOnASlowQuantisedMotion) {
   const CommissioningStage& stage = stage_with(false);

@@ -114,7 +114,8 @@ PassInterval pass_interval(StageQuantity quantity, const CommissioningStage& sta
   } else if (quantity == StageQuantity::rise_time || quantity == StageQuantity::settling_time) {
     interval = {band.lower * (1.0 - time_resolution), band.upper * (1.0 + time_resolution)};
   } else if (quantity == StageQuantity::valve_per_rate) {
-    interval = {band.lower * (1.0 - valve_resolution), band.upper * (1.0 + valve_resolution)};
+    // No antenna as stated is below 1, where a normal distribution would go.
+    interval = {band.minimum * (1.0 - valve_resolution), band.upper * (1.0 + valve_resolution)};
   } else if (is_rms(quantity)) {
     interval = {band.lower / rms_allowance, band.upper * rms_allowance};
   }

@@ -103,7 +103,7 @@ std::vector<CommandStep> steps_of(const VectorXd& command) {
 }
 
 StepResponses step_responses(const Signal& command, const Signal& response,
-                             const std::vector<CommandStep>& steps, Index least) {
+                             const std::vector<CommandStep>& steps, Index min_length) {
   StepResponses found;
   const Index samples = command.values.size();
   const auto length_of = [&](std::size_t i) {
@@ -113,8 +113,8 @@ StepResponses step_responses(const Signal& command, const Signal& response,
   std::vector<CommandStep> usable;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Index before = steps[i].first - (i == 0 ? 0 : steps[i - 1].behind);
-    const Index needed = std::max(least, std::min(length_of(i), least * 4));
-    if (length_of(i) < least || before < needed / 4) {
+    const Index needed = std::max(min_length, std::min(length_of(i), min_length * 4));
+    if (length_of(i) < min_length || before < needed / 4) {
       ++found.hurried;
       continue;
     }

@@ -29,14 +29,14 @@ struct StepResponses {
   double noise = 0.0;       // standard, before the steps, over the step
   double size = 0.0;        // mean of the steps' sizes
   std::size_t masked = 0;   // left out: samples that are not valid
-  std::size_t hurried = 0;  // left out: shorter than `least`, or too soon after the one before
+  std::size_t hurried = 0;  // left out: shorter than `min_length`, or too soon after the one before
 };
 
 /// The motion before a step is the command's, in the half of the time before it in which the step
-/// before has decayed; it is taken off command and response. `least`: samples of a step.
+/// before has decayed; it is taken off command and response. `min_length`: samples of a step.
 StepResponses step_responses(const identification::Signal& command,
                              const identification::Signal& response,
-                             const std::vector<CommandStep>& steps, Eigen::Index least);
+                             const std::vector<CommandStep>& steps, Eigen::Index min_length);
 
 /// The values less the straight line through them by least squares.
 Eigen::VectorXd without_line(const Eigen::VectorXd& values);

@@ -115,7 +115,10 @@ TEST(UpdatedPlants, RefuseWhatTheyCannotWeigh) {
 TEST(CombinedRecords, HaveTheMeanOfWhatSeveralMeasured) {
   using enum StageQuantity;
   const std::vector<MeasuredStage> records{
-      {2, {.quantities = {{rise_time, 1.0, 0.3, 2}, {overshoot, 0.1, 0.01, 2}}, .step_size = 0.0, .remarks = {}}},
+      {2,
+       {.quantities = {{rise_time, 1.0, 0.3, 2}, {overshoot, 0.1, 0.01, 2}},
+        .step_size = 0.0,
+        .remarks = {}}},
       {0, {.quantities = {{calm_valve, 5.0, 0.1, 0}}, .step_size = 0.0, .remarks = {}}},
       {2, {.quantities = {{rise_time, 2.0, 0.4, 3}}, .step_size = 0.0, .remarks = {}}}};
   const auto both = combined(records);

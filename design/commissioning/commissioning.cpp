@@ -17,7 +17,6 @@ namespace {
 using control::Controller;
 using control::LoopPath;
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 // How far the loop gain is raised in search of the peak at which to give up.
 constexpr double highest_raise = 8.0;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 #include <fmt/format.h>
@@ -149,7 +150,7 @@ void measure_steps(const Signal& command, const Signal& response,
   }
   // Both ends are read to half a sample, and at the slope 0.8/rise.
   const double by_noise =
-      std::hypot(noise * *figures.rise / 0.8 * std::sqrt(2.0), 0.5 * sample_time);
+      std::hypot(noise * *figures.rise / 0.8 * std::numbers::sqrt2, 0.5 * sample_time);
   add(
       StageQuantity::rise_time, *figures.rise, [](const StepFigures& one) { return one.rise; },
       by_noise);

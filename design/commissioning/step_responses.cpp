@@ -121,12 +121,12 @@ StepResponses step_responses(const Signal& command, const Signal& response,
     usable.push_back(steps[i]);
     shortest = std::min(shortest, length_of(i));
   }
-  for (std::size_t i = 0; i < usable.size(); ++i) {
-    const Index step = usable[i].behind;
-    const Index before = std::min(usable[i].first, shortest);
+  for (const CommandStep& change : usable) {
+    const Index step = change.behind;
+    const Index before = std::min(change.first, shortest);
     // What the step before left decays in the first half.
     const Index fitted = std::max<Index>(2, before / 2);
-    const Index from = usable[i].first + 1 - fitted;
+    const Index from = change.first + 1 - fitted;
     if (!all_valid(response, from, step + shortest - from) ||
         !all_valid(command, from, step + shortest - from)) {
       ++found.masked;

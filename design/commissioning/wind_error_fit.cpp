@@ -16,7 +16,6 @@ namespace boresight::design {
 namespace {
 
 constexpr int min_records = 3;
-constexpr double gust_mean = 0.5, gust_deviation = 0.5;
 
 using Matrix = Eigen::Matrix<double, 6, 6>;
 using Vector = Eigen::Matrix<double, 6, 1>;
@@ -48,10 +47,7 @@ void check(const std::vector<ErrorInWind>& records, double reference) {
 }  // namespace
 
 WindErrorFit::WindErrorFit(std::vector<ErrorInWind> records, double reference_speed)
-    : records_(std::move(records)),
-      reference_(reference_speed),
-      exponent_(usual_wind_exponent),
-      gust_exponent_(gust_mean) {
+    : records_(std::move(records)), reference_(reference_speed) {
   check(records_, reference_speed);
   std::vector<double> freedom, variances;
   for (const ErrorInWind& one : records_) {
@@ -81,10 +77,10 @@ WindErrorFit::Line WindErrorFit::fitted_line(bool after, double exponent,
   constexpr int most_iterations = 200;
   Line line;
   std::vector<double> forcings;
-  for (std::size_t i = 0; i < records_.size(); ++i) {
-    forcings.push_back(forcing(records_[i], exponent, gust_exponent));
-    if (records_[i].after == after) {
-      line.wind = std::max(line.wind, records_[i].variance / scale_ / forcings.back());
+  for (const ErrorInWind& record : records_) {
+    forcings.push_back(forcing(record, exponent, gust_exponent));
+    if (record.after == after) {
+      line.wind = std::max(line.wind, record.variance / scale_ / forcings.back());
     }
   }
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -124,7 +120,7 @@ double WindErrorFit::deviance(double exponent, double gust_exponent) const {
                          fitted_line(true, exponent, gust_exponent)};
   double sum =
       dispersion_ * (square((exponent - usual_wind_exponent) / usual_wind_exponent_deviation) +
-                     square((gust_exponent - gust_mean) / gust_deviation));
+                     square((gust_exponent - usual_gust_exponent) / usual_gust_exponent_deviation));
   for (std::size_t i = 0; i < records_.size(); ++i) {
     const Line& line = lines.at(records_[i].after ? 1 : 0);
     const double mean =
@@ -146,7 +142,8 @@ void WindErrorFit::minimise() {
         usual_wind_exponent + reach * usual_wind_exponent_deviation, tolerance);
     gust_exponent_ = numerics::golden_section_maximum(
         [&](double exponent) { return -deviance(exponent_, exponent); },
-        gust_mean - reach * gust_deviation, gust_mean + reach * gust_deviation, tolerance);
+        usual_gust_exponent - reach * usual_gust_exponent_deviation,
+        usual_gust_exponent + reach * usual_gust_exponent_deviation, tolerance);
   }
   line_ = {fitted_line(false, exponent_, gust_exponent_),
            fitted_line(true, exponent_, gust_exponent_)};
@@ -187,7 +184,7 @@ void WindErrorFit::estimate_dispersion() {
     }
   }
   const std::array prior{dispersion_ / square(usual_wind_exponent_deviation),
-                         dispersion_ / square(gust_deviation)};
+                         dispersion_ / square(usual_gust_exponent_deviation)};
   for (std::size_t k = 0; k < 2; ++k) {
     const auto place = static_cast<Eigen::Index>(4 + k);
     free += information(place, place) / (information(place, place) + prior.at(k));
@@ -200,7 +197,8 @@ void WindErrorFit::estimate_dispersion() {
   const Matrix scaled =
       diagonal.cwiseInverse().asDiagonal() * information * diagonal.cwiseInverse().asDiagonal();
   const Matrix inverse = scaled.ldlt().solve(Matrix::Identity());
-  covariance_.assign(static_cast<std::size_t>(parameters * parameters), 0.0);
+  covariance_.assign(static_cast<std::size_t>(parameters) * static_cast<std::size_t>(parameters),
+                     0.0);
   Eigen::Map<Matrix>(covariance_.data()) = dispersion_ * diagonal.cwiseInverse().asDiagonal() *
                                            inverse * diagonal.cwiseInverse().asDiagonal();
 }

@@ -10,6 +10,8 @@ namespace boresight::design {
 /// Exponent of the mean wind speed in the variance of an error, and its standard deviation between
 /// antennas and controllers: the prior of WindErrorFit.
 inline constexpr double usual_wind_exponent = 5.3, usual_wind_exponent_deviation = 0.7;
+/// The same of the gusts' exponent.
+inline constexpr double usual_gust_exponent = 0.5, usual_gust_exponent_deviation = 0.5;
 
 /// One record's error in its wind.
 struct ErrorInWind {
@@ -74,7 +76,8 @@ class WindErrorFit {
   double reference_;
   double scale_;  // variances are divided by it
   std::array<Line, 2> line_{};
-  double exponent_, gust_exponent_, dispersion_;
+  double exponent_ = usual_wind_exponent, gust_exponent_ = usual_gust_exponent;
+  double dispersion_;
   double residual_freedom_ = 0.0;
   std::vector<double> covariance_;  // parameters x parameters
 };

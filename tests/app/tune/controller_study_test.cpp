@@ -142,7 +142,8 @@ TEST(ControllerStudy, EveryCommandPutsTheSameStateSpaceOnAnAntenna) {
   EXPECT_EQ(evaluated.at("candidates").at(0).at("chosen_structure"), "SS");
   const Json plan = answer({"commission", path}, folder);
   EXPECT_EQ(plan.at("state_space_controller"), matrices);
-  EXPECT_EQ(plan.at("stages").back().at("kind"), "feedforward");
+  EXPECT_EQ(plan.at("stages").back().at("kind"), "output");
+  EXPECT_EQ(plan.at("stages").back().at("feedforward"), true);
 
   // The report's own file puts it on the antenna again, without a search.
   BenchmarkArguments benchmark;

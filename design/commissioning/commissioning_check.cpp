@@ -11,6 +11,7 @@
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/command_loop.hpp>
 #include <boresight/design/commissioning/commissioning_check.hpp>
+#include <boresight/design/commissioning/sampled_step.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
@@ -25,29 +26,11 @@ using control::LoopBreak;
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Eigen::Index samples_watched = 6000;
-constexpr double settled = 0.05;
 
 TrackingProblem with_plant(TrackingProblem problem, const plant::AntennaPlant& plant) {
   problem.plant = plant;
   problem.points_per_decade = 60;
   return problem;
-}
-
-// First time at which the samples reach a level, straight between them.
-double time_at(const Eigen::VectorXd& values, double level, double step) {
-  for (Eigen::Index k = 1; k < values.size(); ++k) {
-    if (values[k] >= level) {
-      const double part = (level - values[k - 1]) / (values[k] - values[k - 1]);
-      return step * (static_cast<double>(k - 1) + std::clamp(part, 0.0, 1.0));
-    }
-  }
-  return infinity;
-}
-
-double settling_time(const Eigen::VectorXd& values, double step) {
-  Eigen::Index last = values.size() - 1;
-  while (last >= 0 && std::abs(values[last] - 1.0) <= settled) --last;
-  return last == values.size() - 1 ? infinity : step * static_cast<double>(last + 1);
 }
 
 // Trapezoidal weights in Hz on a grid in rad/s, nothing beyond `highest` Hz.
@@ -206,9 +189,11 @@ void StageObserver::observe_step(const StageController& stage, StageObservation&
   plant::LinearSimulation simulation(loop, step);
   const Eigen::MatrixXd output = simulation.simulate(input);
   const Eigen::VectorXd response = output.col(0);
-  seen.rise_time = time_at(response, 0.9, step) - time_at(response, 0.1, step);
+  seen.rise_time = rise_time(response, step);
   seen.overshoot = std::max(0.0, response.maxCoeff() - 1.0);
-  seen.settling_time = settling_time(response, step);
+  const Eigen::Index settled = settled_from(response);
+  seen.settling_time =
+      settled < response.size() ? step * static_cast<double>(settled) : infinity;
   seen.largest_torque = output.col(1).cwiseAbs().maxCoeff();
   seen.largest_demand = output.col(2).cwiseAbs().maxCoeff();
 }

@@ -6,8 +6,11 @@
 
 #include <fmt/format.h>
 
+#include <boresight/design/commissioning/sampled_step.hpp>
 #include <boresight/design/commissioning/stage_record.hpp>
 #include <boresight/design/commissioning/step_responses.hpp>
+#include <boresight/identification/grey_box/grey_box_whiteness.hpp>
+#include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 
@@ -20,7 +23,6 @@ using identification::ServoRecord;
 using identification::Signal;
 
 constexpr Index fewest_samples = 100;
-constexpr double settled = 0.05;
 // What the response is smoothed over, in rise times: for its largest value, and for settling, which
 // one noisy sample would delay. The error of a move: in periods of the crossover.
 constexpr double smoothing = 1.0 / 15.0;
@@ -51,22 +53,6 @@ VectorXd smoothed(const VectorXd& values, Index reach) {
   return result;
 }
 
-// First time at which the samples reach a level; none if they do not.
-std::optional<double> time_at(const VectorXd& values, double level, double sample_time) {
-  for (Index k = 1; k < values.size(); ++k) {
-    if (values[k] < level) continue;
-    const double part = (level - values[k - 1]) / (values[k] - values[k - 1]);
-    return sample_time * (static_cast<double>(k - 1) + std::clamp(part, 0.0, 1.0));
-  }
-  return std::nullopt;
-}
-
-std::optional<double> rise_time(const VectorXd& values, double sample_time) {
-  const auto low = time_at(values, 0.1, sample_time);
-  const auto high = time_at(values, 0.9, sample_time);
-  return low && high ? std::optional(*high - *low) : std::nullopt;
-}
-
 struct StepFigures {
   std::optional<double> rise, settling;
   double overshoot = 0.0;
@@ -74,20 +60,20 @@ struct StepFigures {
 
 StepFigures figures_of(const VectorXd& response, double sample_time) {
   StepFigures figures;
-  const auto rough = rise_time(response, sample_time);
+  const double rough = rise_time(response, sample_time);
   const auto smooth_over = [&](double rise_times) {
-    return smoothed(response,
-                    rough ? static_cast<Index>(0.5 * rise_times * *rough / sample_time) : Index{0});
+    return smoothed(response, std::isfinite(rough)
+                                  ? static_cast<Index>(0.5 * rise_times * rough / sample_time)
+                                  : Index{0});
   };
   const VectorXd smooth = smooth_over(smoothing);
-  figures.rise = rise_time(smooth, sample_time);
+  if (const double rise = rise_time(smooth, sample_time); std::isfinite(rise)) figures.rise = rise;
   figures.overshoot = std::max(0.0, smooth.maxCoeff() - 1.0);
   const VectorXd slow = smooth_over(smoothing_for_settling);
-  Index last = slow.size() - 1;
-  while (last >= 0 && std::abs(slow[last] - 1.0) <= settled) --last;
-  // Settled for the last tenth of the step at least, else it may leave again.
-  if (last + 1 < slow.size() - slow.size() / 10) {
-    figures.settling = sample_time * static_cast<double>(last + 1);
+  const Index settled = settled_from(slow);
+  // For the last tenth of the step at least, else it may leave again.
+  if (settled < slow.size() - slow.size() / 10) {
+    figures.settling = sample_time * static_cast<double>(settled);
   }
   return figures;
 }
@@ -167,20 +153,20 @@ void measure_steps(const Signal& command, const Signal& response,
   }
 }
 
+VectorXd without_line(VectorXd values) {
+  identification::remove_trend(values, identification::Detrend::line);
+  return values;
+}
+
 // Standard uncertainty of the rms of correlated samples, relative: half that of their mean square.
 double relative_uncertainty(const VectorXd& values) {
-  const Index n = values.size();
-  const double variance = values.squaredNorm() / static_cast<double>(n);
-  if (!(variance > 0.0)) return 0.0;
+  const auto count = static_cast<double>(values.size());
   double sum = 1.0;
-  for (Index lag = 1; lag < n / 10; ++lag) {
-    const double correlation =
-        values.head(n - lag).dot(values.tail(n - lag)) / (static_cast<double>(n - lag) * variance);
+  for (const double correlation : identification::autocorrelations(values, values.size() / 10)) {
     // Less what the estimate's own noise adds.
-    const double noise = 2.0 / static_cast<double>(n - lag);
-    sum += 2.0 * std::max(0.0, correlation * correlation - noise);
+    sum += 2.0 * std::max(0.0, correlation * correlation - 2.0 / count);
   }
-  return std::sqrt(0.5 * sum / static_cast<double>(n));
+  return std::sqrt(0.5 * sum / count);
 }
 
 void measure_rms(StageQuantity quantity, const std::optional<Signal>& signal, double scale,

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <boresight/design/commissioning/step_responses.hpp>
+#include <boresight/identification/signals/spectrum.hpp>
 
 namespace boresight::design {
 namespace {
@@ -36,12 +37,6 @@ Line line_through(const Eigen::Ref<const VectorXd>& values) {
 
 }  // namespace
 
-VectorXd without_line(const VectorXd& values) {
-  const Line line = line_through(values);
-  return values - VectorXd::LinSpaced(values.size(), line.start,
-                                      line.at(static_cast<double>(values.size() - 1)));
-}
-
 bool all_valid(const Signal& signal, Index first, Index count) {
   for (Index k = first; k < first + count; ++k) {
     if (!signal.is_valid(k)) return false;
@@ -51,7 +46,9 @@ bool all_valid(const Signal& signal, Index first, Index count) {
 
 bool is_steady(const VectorXd& command) {
   constexpr double rounding = 1e-9;
-  const double off = without_line(command).cwiseAbs().maxCoeff();
+  VectorXd from_line = command;
+  identification::remove_trend(from_line, identification::Detrend::line);
+  const double off = from_line.cwiseAbs().maxCoeff();
   if (off <= rounding * command.cwiseAbs().maxCoeff()) return true;
   // A slow motion in the steps of its resolution, all in one direction.
   constexpr int fewest_changes = 20;

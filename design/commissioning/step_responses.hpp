@@ -38,9 +38,6 @@ StepResponses step_responses(const identification::Signal& command,
                              const identification::Signal& response,
                              const std::vector<CommandStep>& steps, Eigen::Index min_length);
 
-/// The values less the straight line through them by least squares.
-Eigen::VectorXd without_line(const Eigen::VectorXd& values);
-
 /// Whether `count` samples from `first` are valid.
 bool all_valid(const identification::Signal& signal, Eigen::Index first, Eigen::Index count);
 

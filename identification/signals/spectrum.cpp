@@ -21,15 +21,6 @@ Index default_segment(Index samples) {
   return length;
 }
 
-void remove_trend(VectorXd& segment, Detrend detrend) {
-  if (detrend == Detrend::none) return;
-  segment.array() -= segment.mean();
-  if (detrend == Detrend::mean) return;
-  const auto last = static_cast<double>(segment.size() - 1);
-  const VectorXd ramp = VectorXd::LinSpaced(segment.size(), -0.5 * last, 0.5 * last);
-  segment -= (ramp.dot(segment) / ramp.squaredNorm()) * ramp;
-}
-
 // 1/(1/K + 2/K^2 sum (K - j) rho_j): rho_j the squared correlation of windows j steps apart.
 double effective_number(const VectorXd& window, Index step, Index segments) {
   const auto count = static_cast<double>(segments);
@@ -44,6 +35,15 @@ double effective_number(const VectorXd& window, Index step, Index segments) {
 }
 
 }  // namespace
+
+void remove_trend(VectorXd& values, Detrend detrend) {
+  if (detrend == Detrend::none) return;
+  values.array() -= values.mean();
+  if (detrend == Detrend::mean) return;
+  const auto last = static_cast<double>(values.size() - 1);
+  const VectorXd ramp = VectorXd::LinSpaced(values.size(), -0.5 * last, 0.5 * last);
+  values -= (ramp.dot(values) / ramp.squaredNorm()) * ramp;
+}
 
 VectorXd window_samples(SpectralWindow window, Index samples) {
   VectorXd result(samples);

@@ -15,6 +15,9 @@ enum class SpectralWindow {
 /// What is taken out of each segment before its window.
 enum class Detrend { none, mean, line };
 
+/// Takes it out of the values; a line by least squares. `values`: 2 or more for a line.
+void remove_trend(Eigen::VectorXd& values, Detrend detrend);
+
 struct SpectrumOptions {
   /// Samples; 0: the power of two nearest below a sixth of the record (the whole record for fewer
   /// than 384 samples).

@@ -62,7 +62,7 @@ ChangeReport report_change(const io::DesignedAntenna& designed,
                            const ChosenController& new_controller, std::uint64_t seed,
                            const design::ChangeOptions& options);
 
-/// The decision in one or two sentences: "After is 0.52 (0.47 to 0.58) times before ...".
+/// The decision in one or two sentences: "Position error rms after the change is 0.52 ...".
 std::vector<std::string> decision(const ChangeReport& report);
 
 /// The sections that a report and a change record have in common.

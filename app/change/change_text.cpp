@@ -1,3 +1,4 @@
+#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::string verdict(const ChangeReport& report, const design::RatioAtSpeed& at) 
 std::string prediction_text(const ChangeReport& report) {
   if (!report.predicted) return {};
   const auto& predicted = *report.predicted;
-  return fmt::format("; predicted {}: {}", band_text(predicted.ratio),
+  return fmt::format("; the linear model predicted {}: {}", band_text(predicted.ratio),
                      predicted.held ? "held" : "NOT held");
 }
 
@@ -44,8 +45,7 @@ std::string not_compared(const ChangeReport& report) {
   if (report.comparison.kind == design::WindComparisonKind::no_overlap) {
     return fmt::format(
         "No verdict: the mean wind speeds do not overlap, {:.1f} to {:.1f} m/s before and {:.1f} "
-        "to "
-        "{:.1f} m/s after. Record at wind speeds that both conditions have.",
+        "to {:.1f} m/s after. Record at wind speeds that both conditions have.",
         before.slowest, before.fastest, after.slowest, after.fastest);
   }
   return fmt::format(
@@ -157,9 +157,11 @@ Document records_part(const ChangeReport& report) {
 std::vector<std::string> decision(const ChangeReport& report) {
   const auto& at = report.comparison.at_reference;
   if (!at) return {not_compared(report)};
-  std::vector<std::string> sentences{fmt::format("After is {} times before at {:.1f} m/s: {}{}.",
-                                                 band_text(at->ratio), at->speed,
-                                                 verdict(report, *at), prediction_text(report))};
+  std::string error(to_string(report.error));
+  error[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(error[0])));
+  std::vector<std::string> sentences{fmt::format(
+      "{} rms after the change is {} times that before, at a mean wind speed of {:.1f} m/s: {}{}.",
+      error, band_text(at->ratio), at->speed, verdict(report, *at), prediction_text(report))};
   if (report.comparison.directions_differ) {
     sentences.emplace_back(
         "The wind came from different directions: its torque depends on the attitude, and the "

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <boresight/app/commands/benchmark_change.hpp>
-#include <boresight/app/commands/progress_line.hpp>
 #include <boresight/app/page/report_page.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/present_gains.hpp>
@@ -67,18 +66,6 @@ std::optional<ChosenController> old_controller(const ChangeArguments& change,
                           "the antenna's present gains, from the case"};
 }
 
-ChosenController recommended(const BenchmarkArguments& arguments,
-                             const io::DesignedAntenna& designed,
-                             const std::function<bool()>& interrupted) {
-  ProgressLine progress("tuning and verifying");
-  design::TuneOptions options;
-  options.seed = arguments.seed;
-  options.threads = arguments.threads;
-  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-  options.interrupted = interrupted;
-  return recommended_controller(designed, arguments.controller.structure, options);
-}
-
 }  // namespace
 
 ChangeReport change_of_case(const BenchmarkArguments& arguments,
@@ -94,7 +81,7 @@ ChangeReport change_of_case(const BenchmarkArguments& arguments,
   const auto named = named_controller(antenna, arguments.controller);
   const io::DesignedAntenna designed =
       designed_antenna(antenna, arguments.seed, arguments.threads, interrupted);
-  const ChosenController chosen = named ? *named : recommended(arguments, designed, interrupted);
+  const ChosenController chosen = named ? *named : recommended_of(arguments, designed, interrupted);
   return report_change(designed, before, after, old, chosen, arguments.seed,
                        {.reference_speed = {}, .threads = arguments.threads});
 }

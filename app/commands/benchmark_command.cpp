@@ -66,18 +66,24 @@ std::optional<Named> named_one(const BenchmarkArguments& arguments, const io::Ca
 
 Named recommended_one(const BenchmarkArguments& arguments, const io::DesignedAntenna& designed,
                       double sample_time, const std::function<bool()>& interrupted) {
+  const ChosenController chosen = recommended_of(arguments, designed, interrupted);
+  return {design::controller_of(
+      chosen.controller, fmt::format("{}, {}", chosen.structure, chosen.source), sample_time)};
+}
+
+}  // namespace
+
+ChosenController recommended_of(const BenchmarkArguments& arguments,
+                                const io::DesignedAntenna& designed,
+                                const std::function<bool()>& interrupted) {
   ProgressLine progress("tuning and verifying");
   design::TuneOptions options;
   options.seed = arguments.seed;
   options.threads = arguments.threads;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   options.interrupted = interrupted;
-  const auto chosen = recommended_controller(designed, arguments.controller.structure, options);
-  return {design::controller_of(
-      chosen.controller, fmt::format("{}, {}", chosen.structure, chosen.source), sample_time)};
+  return recommended_controller(designed, arguments.controller.structure, options);
 }
-
-}  // namespace
 
 BenchmarkReport benchmark_case(const BenchmarkArguments& arguments,
                                const std::function<bool()>& interrupted) {

@@ -37,6 +37,11 @@ struct BenchmarkArguments {
   unsigned threads = 0;  // 0: all
 };
 
+/// recommended_controller with progress, for the arguments' seed, threads and structure.
+ChosenController recommended_of(const BenchmarkArguments& arguments,
+                                const io::DesignedAntenna& designed,
+                                const std::function<bool()>& interrupted);
+
 /// Scores the requested controller on the antenna of the case or, for a case with records, on the
 /// identified one. After `interrupted` returned true, the report holds the completed parts.
 /// @throws InvalidInput for invalid arguments, cases or files; Interrupted before the controller is

@@ -127,7 +127,7 @@ void describe_fault(io::Visitor& v, const design::FaultTrial& trial) {
          "in that stage");
   v.text_or_null("quantity",
                  trial.evaluation.worst ? to_string(*trial.evaluation.worst) : std::string_view(),
-                 "that shows it; null: the loop oscillates, or no stage shows it");
+                 "that shows it; null: the loop is unstable, or no stage shows it");
   v.number("value", trial.evaluation.worst ? std::optional(trial.measured) : std::nullopt,
            {.suffix = "SI"}, "of that quantity, at the motor");
 }

@@ -45,7 +45,7 @@ std::vector<std::string> fault_row(const CommissionReport& report,
                                    const design::FaultTrial& trial) {
   if (!trial.detected) return {trial.fault, "none", "within the brackets of every stage"};
   const auto& stage = report.sheets[*trial.detected].stage;
-  std::string shows = "oscillates";
+  std::string shows = "unstable";
   if (trial.evaluation.worst) {
     const auto interval =
         pass_interval(*trial.evaluation.worst, stage, report.options.rms_allowance);

@@ -6,6 +6,7 @@
 #include <boresight/app/commission/commission_findings.hpp>
 #include <boresight/app/commission/commission_sheets.hpp>
 #include <boresight/app/figures/commission_figures.hpp>
+#include <boresight/app/figures/figure_csv.hpp>
 #include <boresight/app/report/axis_wording.hpp>
 #include <boresight/app/report/sky_units.hpp>
 #include <boresight/io/code/exported_files.hpp>
@@ -53,13 +54,6 @@ Document sheet(const CommissionReport& report, std::size_t i) {
                       "llllll");
 }
 
-std::string quoted(std::string text) {
-  for (auto at = text.find('"'); at != std::string::npos; at = text.find('"', at + 2)) {
-    text.insert(at, 1, '"');
-  }
-  return '"' + text + '"';
-}
-
 std::string sheets_csv(const CommissionReport& report) {
   std::string text =
       "stage,name,position_loop,command,quantity,unit,expected,lower,upper,abort_above,measured,"
@@ -67,12 +61,13 @@ std::string sheets_csv(const CommissionReport& report) {
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const StageSheet& stage = report.sheets[i];
     for (const auto& check : stage.checks) {
-      text += fmt::format(
-          "{},{},{},{},{},{},{:.9g},{:.9g},{:.9g},{},,,,\n", i + 1, quoted(stage_name(stage.stage)),
-          stage.stage.controller.position_open ? "open" : "closed",
-          quoted(command_in_words(report, stage)), quoted(std::string(to_string(check.quantity))),
-          quoted(check.unit), check.expected, check.lower, check.upper,
-          check.abort_above ? fmt::format("{:.9g}", *check.abort_above) : "");
+      text += fmt::format("{},{},{},{},{},{},{:.9g},{:.9g},{:.9g},{},,,,\n", i + 1,
+                          csv_field(stage_name(stage.stage)),
+                          stage.stage.controller.position_open ? "open" : "closed",
+                          csv_field(command_in_words(report, stage)),
+                          csv_field(std::string(to_string(check.quantity))), csv_field(check.unit),
+                          check.expected, check.lower, check.upper,
+                          check.abort_above ? fmt::format("{:.9g}", *check.abort_above) : "");
     }
   }
   return text;

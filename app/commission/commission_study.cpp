@@ -96,55 +96,45 @@ control::Controller target_of(const io::DesignedAntenna& designed, const Commiss
   return std::move(chosen.controller);
 }
 
-design::TrialOptions trial_options(const CommissionOptions& options, const CommissionReport& report,
-                                   std::string_view work) {
-  design::TrialOptions trial;
-  trial.seed = options.seed;
-  trial.threads = options.threads;
-  trial.rms_allowance = report.options.rms_allowance;
-  trial.stop = options.interrupted;
-  if (options.progress) {
-    trial.progress = [progress = options.progress, work](std::size_t done, std::size_t all) {
-      progress(work, done, all);
-    };
-  }
-  return trial;
-}
-
 // Before the work: a misspelt name must not cost a tuning.
-std::vector<RecordedStage> read_records(const io::Case& antenna, const CommissionOptions& options,
-                                        std::vector<identification::ServoRecord>& records) {
-  std::vector<RecordedStage> stages;
+std::vector<design::StageRecord> read_records(const io::Case& antenna,
+                                              const CommissionOptions& options,
+                                              std::vector<RecordedStage>& stages) {
+  std::vector<design::StageRecord> records;
   for (const auto& [number, file] : options.records) {
     if (number < 1) throw InvalidInput("--record: expected the number of a stage, from 1, found 0");
     io::ServoRecordNotes notes;
-    records.push_back(io::read_servo_record(antenna, file, notes));
-    stages.push_back({number - 1, file, {}, {}, reading_of(notes)});
+    records.push_back({number - 1, io::read_servo_record(antenna, file, notes)});
+    stages.push_back({{}, file, reading_of(notes)});
   }
-  return stages;
+  return records;
 }
 
-void evaluate_records(const io::DesignedAntenna& designed, const CommissionOptions& options,
-                      const std::vector<design::AntennaFault>& faults,
-                      const std::vector<identification::ServoRecord>& records,
-                      CommissionReport& report) {
-  // More are drawn where the records leave few of them.
-  constexpr std::size_t plants = 400;
-  std::vector<design::MeasuredStage> measured;
-  std::size_t quantities = 0;
-  for (std::size_t i = 0; i < records.size(); ++i) {
-    RecordedStage& record = report.records[i];
-    const auto& stage = report.plan.stages[record.stage];
-    record.measurement = measure_stage(records[i], stage, report.gear_ratio);
-    record.evaluated = evaluated(record.measurement, stage, report.options.rms_allowance);
-    std::ranges::copy(record.measurement.remarks, std::back_inserter(record.remarks));
-    quantities += record.measurement.quantities.size();
-    measured.push_back({record.stage, record.measurement});
+void add_stages(const io::DesignedAntenna& designed, const CommissionOptions& options,
+                const design::CommissionStudy& study, std::vector<design::StageRecord> records,
+                CommissionReport& report) {
+  design::StageStudyOptions stages;
+  stages.seed = options.seed;
+  stages.threads = options.threads;
+  stages.rms_allowance = report.options.rms_allowance;
+  stages.stop = options.interrupted;
+  if (options.progress) {
+    stages.progress = [progress = options.progress](std::size_t done, std::size_t all) {
+      progress("trying stages", done, all);
+    };
   }
-  if (quantities == 0) return;
-  report.update =
-      updated_plants(designed.mission, designed.distribution, report.plan, report.move, measured,
-                     faults, plants, trial_options(options, report, "updating plants"));
+  stages.motors = static_cast<double>(designed.antenna.motor->count);
+  stages.fresh_plants = options.plants;
+  stages.records = std::move(records);
+  design::StageStudy found = study_stages(designed.mission, designed.distribution, study, stages);
+  report.trials = std::move(found.trials);
+  report.faults = std::move(found.faults);
+  report.update = std::move(found.update);
+  for (std::size_t i = 0; i < found.records.size(); ++i) {
+    RecordedStage& record = report.records[i];
+    static_cast<design::RecordedStage&>(record) = std::move(found.records[i]);
+    std::ranges::copy(record.measurement.remarks, std::back_inserter(record.remarks));
+  }
 }
 
 }  // namespace
@@ -183,8 +173,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   }
   report.move = design::commissioning_move(designed.mission);
   report.units = plant_units(antenna, designed.mission);
-  std::vector<identification::ServoRecord> records;
-  report.records = read_records(antenna, options, records);
+  auto records = read_records(antenna, options, report.records);
   if (!options.structure.empty()) io::check_structure(antenna, options.structure);
   if (!options.before.empty()) {
     for (auto& compared :
@@ -208,21 +197,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
       channel.predicted = predicted_ratio(report.plan, channel.quantity);
     }
     report.sheets = make_sheets(antenna, report, study.steps);
-    for (const RecordedStage& record : report.records) {
-      if (record.stage < report.plan.stages.size()) continue;
-      throw InvalidInput(fmt::format("--record: expected a stage of the plan, 1 to {}, found {}",
-                                     report.plan.stages.size(), record.stage + 1));
-    }
-    const auto faults = design::usual_faults(static_cast<double>(antenna.motor->count),
-                                             target.structure.feeds_torque_back());
-    report.faults = try_faults(designed.mission, report.plan, report.move, faults,
-                               trial_options(options, report, "trying faults"));
-    if (options.plants > 0) {
-      report.trials =
-          try_stages(designed.mission, designed.distribution, report.plan, report.move,
-                     options.plants, trial_options(options, report, "trying fresh plants"));
-    }
-    evaluate_records(designed, options, faults, records, report);
+    add_stages(designed, options, study, std::move(records), report);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);
   } catch (const NumericalFailure& error) {

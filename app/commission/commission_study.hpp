@@ -13,10 +13,8 @@
 #include <boresight/app/document/document.hpp>
 #include <boresight/app/figures/figure.hpp>
 #include <boresight/design/commissioning/commissioning.hpp>
-#include <boresight/design/commissioning/commissioning_trials.hpp>
 #include <boresight/design/commissioning/drive_record_comparison.hpp>
-#include <boresight/design/commissioning/plant_update.hpp>
-#include <boresight/design/commissioning/stage_record.hpp>
+#include <boresight/design/studies/stage_study.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/pointing_axis.hpp>
 
@@ -67,11 +65,8 @@ struct StageSheet {
 };
 
 /// The record of a stage that is done.
-struct RecordedStage {
-  std::size_t stage = 0;  // index of the sheets
+struct RecordedStage : design::RecordedStage {
   std::string file;
-  design::StageMeasurement measurement;
-  std::vector<design::EvaluatedQuantity> evaluated;
   std::vector<std::string> remarks;  // of reading and measuring it
 };
 

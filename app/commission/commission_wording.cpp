@@ -108,9 +108,11 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
   }
   const bool state_space = last.controller.controller.structure.state_space() != nullptr;
   sentences.push_back(fmt::format(
-      "{} stages lead to {}. {} more than a factor of {:.3g} per stage; Ms is at most {:.2f} on "
+      "{} stages lead to {}{}. {} more than a factor of {:.3g} per stage; Ms is at most {:.2f} on "
       "each of {} plants at every stage.",
       report.plan.stages.size() - (first.kind == StageKind::as_found ? 1 : 0), report.structure,
+      state_space ? fmt::format(" ({})", last.controller.controller.structure.name())
+                  : std::string(),
       state_space ? "The first replaces all gains at reduced output; its factor k rises by no"
                   : "No gain changes by",
       report.plan.largest_step, report.plan.largest_peak(), last.expected.plants));

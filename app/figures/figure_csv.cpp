@@ -12,17 +12,6 @@
 namespace boresight::app {
 namespace {
 
-// RFC 4180: quoted where a separator, a quote or a line break would be misread.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"') quoted += '"';
-    quoted += c;
-  }
-  return quoted + "\"";
-}
-
 std::string axis_name(const FigureAxis& axis) {
   return axis.unit.empty() ? axis.label : fmt::format("{} [{}]", axis.label, axis.unit);
 }
@@ -57,6 +46,16 @@ bool any_series(const Figure& figure, const auto& has) {
 
 }  // namespace
 
+std::string csv_field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"') quoted += '"';
+    quoted += c;
+  }
+  return quoted + "\"";
+}
+
 std::string to_csv(const Figure& figure) {
   std::vector<Column> columns;
   for (const auto& column : intervals) {
@@ -66,16 +65,16 @@ std::string to_csv(const Figure& figure) {
   }
   const bool labelled = any_series(figure, [](const auto& s) { return !s.labels.empty(); });
   std::string text =
-      fmt::format("panel,series,{},{}", field(axis_name(figure.x)), field(y_name(figure)));
+      fmt::format("panel,series,{},{}", csv_field(axis_name(figure.x)), csv_field(y_name(figure)));
   for (const auto& column : columns) text += fmt::format(",{}", column.name);
   text += labelled ? ",label\n" : "\n";
   for (const auto& panel : figure.panels) {
     for (const auto& series : panel.series) {
-      const std::string start = field(axis_name(panel.y)) + "," + field(series.name) + ",";
+      const std::string start = csv_field(axis_name(panel.y)) + "," + csv_field(series.name) + ",";
       for (std::size_t i = 0; i < series.x.size(); ++i) {
         text += start + at(series.x, i) + "," + at(series.y, i);
         for (const auto& column : columns) text += "," + at(series.*column.values, i);
-        if (labelled) text += "," + (i < series.labels.size() ? field(series.labels[i]) : "");
+        if (labelled) text += "," + (i < series.labels.size() ? csv_field(series.labels[i]) : "");
         text += '\n';
       }
     }

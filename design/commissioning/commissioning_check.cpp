@@ -192,8 +192,7 @@ void StageObserver::observe_step(const StageController& stage, StageObservation&
   seen.rise_time = rise_time(response, step);
   seen.overshoot = std::max(0.0, response.maxCoeff() - 1.0);
   const Eigen::Index settled = settled_from(response);
-  seen.settling_time =
-      settled < response.size() ? step * static_cast<double>(settled) : infinity;
+  seen.settling_time = settled < response.size() ? step * static_cast<double>(settled) : infinity;
   seen.largest_torque = output.col(1).cwiseAbs().maxCoeff();
   seen.largest_demand = output.col(2).cwiseAbs().maxCoeff();
 }
@@ -285,11 +284,7 @@ StageObserver::Verdict StageObserver::verdict_by_command_loop(const StageControl
   constexpr double rounding = 1e-6;  // 1/s
   Verdict result;
   result.abscissa = numerics::spectral_abscissa(command_loop(stage).a);
-  for (Eigen::Index i = 0; i < response_.frequency.size(); ++i) {
-    const StagePoint point =
-        stage_point(stage, plant::point(response_, i), response_.frequency[i], problem_.delay);
-    result.peak = std::max(result.peak, 1.0 / std::abs(point.loop));
-  }
+  result.peak = no_number;
   result.stable = result.abscissa < rounding;
   return result;
 }

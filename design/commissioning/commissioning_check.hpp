@@ -66,9 +66,8 @@ struct SignalFactors {
 class StageObserver {
  public:
   /// `plant` replaces the problem's, whose feedforward stays: it is what the computer is loaded
-  /// with. With factors other than 1, everything is as the sensors show it, Ms is read from a grid
-  /// of 60 points per decade, stability is that of command_loop.hpp, and boresight rms and rms in
-  /// wind are NaN.
+  /// with. With factors other than 1, everything is as the sensors show it, stability is that of
+  /// command_loop.hpp, and Ms, boresight rms and rms in wind are NaN.
   /// @throws InvalidInput for a move that is not positive.
   StageObserver(const TrackingProblem& problem, const plant::AntennaPlant& plant,
                 const WindTable& wind, const CommandedMove& move,

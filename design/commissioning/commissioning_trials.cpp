@@ -1,11 +1,9 @@
-#include <algorithm>
 #include <map>
 
 #include <fmt/format.h>
 
 #include <boresight/design/commissioning/commissioning_trials.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::design {
@@ -13,58 +11,22 @@ namespace {
 
 // Ensembles take the samples from 0.
 constexpr std::uint64_t first_fresh_sample = 1'000'000;
-// Between two calls of TrialOptions::progress.
-constexpr std::size_t plants_together = 50;
-
-struct Outcome {
-  bool stable = false;
-  StageVerdict verdict = StageVerdict::passes;
-  std::vector<StageQuantity> outside;
-};
-
-Outcome outcome_of(const StageObservation& seen, const CommissioningStage& stage,
-                   double rms_allowance) {
-  Outcome outcome;
-  outcome.stable = seen.stable;
-  outcome.verdict = evaluated(seen, stage, rms_allowance).verdict;
-  if (!seen.stable) return outcome;
-  for (const StageQuantity quantity : measured_quantities(stage)) {
-    if (verdict_on(quantity, value_of(quantity, seen), 0.0, stage, rms_allowance) !=
-        StageVerdict::passes) {
-      outcome.outside.push_back(quantity);
-    }
-  }
-  return outcome;
-}
-
-void check_interrupt(const TrialOptions& options) {
-  if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
-}
-
 }  // namespace
 
 CommissioningTrials try_stages(const Mission& mission, const PlantDistribution& distribution,
                                const CommissioningPlan& plan, const CommandedMove& move,
                                std::size_t count, const TrialOptions& options) {
   if (count < 1) throw InvalidInput("try_stages: expected at least one plant, found none");
-  const TrackingProblem problem = tracking_problem(mission);
-  const WindTable wind(problem);
-  std::vector<std::vector<Outcome>> outcomes(count);
-  for (std::size_t first = 0; first < count; first += plants_together) {
-    check_interrupt(options);
-    const std::size_t together = std::min(plants_together, count - first);
-    numerics::for_each_index(together, options.threads, [&](std::size_t i) {
-      const PlantSample sample = distribution.draw(options.seed, first_fresh_sample + first + i);
-      StageObserver observer(
-          problem, plant::linear_plant(plant::changed(mission.antenna, changes_of(sample))), wind,
-          move);
-      for (const auto& stage : plan.stages) {
-        outcomes[first + i].push_back(
-            outcome_of(observer.observe(stage.controller), stage, options.rms_allowance));
-      }
-    });
-    if (options.progress) options.progress(first + together, count);
-  }
+  const TrialAntenna antenna(mission, move);
+  std::vector<std::vector<StageEvaluation>> outcomes(count);
+  for_each_plant(0, count, options, [&](std::size_t i) {
+    StageObserver observer =
+        antenna.observer(changes_of(distribution.draw(options.seed, first_fresh_sample + i)));
+    for (const auto& stage : plan.stages) {
+      outcomes[i].push_back(
+          evaluated(observer.observe(stage.controller), stage, options.rms_allowance));
+    }
+  });
   CommissioningTrials trials;
   trials.stages.resize(plan.stages.size());
   trials.plants = count;
@@ -84,7 +46,7 @@ CommissioningTrials try_stages(const Mission& mission, const PlantDistribution& 
     StageTrial& trial = trials.stages[k];
     std::map<StageQuantity, std::size_t> outside;
     for (const auto& plant : outcomes) {
-      const Outcome& outcome = plant[k];
+      const StageEvaluation& outcome = plant[k];
       ++trial.plants;
       trial.stable += outcome.stable ? 1 : 0;
       trial.passing += outcome.verdict == StageVerdict::passes ? 1 : 0;
@@ -135,17 +97,12 @@ std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPl
                                    const CommandedMove& move,
                                    const std::vector<AntennaFault>& faults,
                                    const TrialOptions& options) {
-  check_interrupt(options);
-  const TrackingProblem problem = tracking_problem(mission);
-  const WindTable wind(problem);
+  const TrialAntenna antenna(mission, move);
   std::vector<FaultTrial> trials(faults.size());
-  numerics::for_each_index(faults.size(), options.threads, [&](std::size_t i) {
-    const AntennaFault& fault = faults[i];
+  for_each_plant(0, faults.size(), options, [&](std::size_t i) {
     FaultTrial& trial = trials[i];
-    trial.fault = fault.name;
-    StageObserver observer(problem,
-                           plant::linear_plant(plant::changed(mission.antenna, fault.changes)),
-                           wind, move, fault.factors);
+    trial.fault = faults[i].name;
+    StageObserver observer = antenna.observer(faults[i].changes, faults[i].factors);
     for (std::size_t k = 0; k < plan.stages.size() && !trial.detected; ++k) {
       const CommissioningStage& stage = plan.stages[k];
       if (stage.kind == StageKind::as_found) continue;

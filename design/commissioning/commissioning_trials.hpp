@@ -1,27 +1,16 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <boresight/design/commissioning/stage_quantities.hpp>
+#include <boresight/design/commissioning/trial_antenna.hpp>
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/problem/mission.hpp>
 
 namespace boresight::design {
-
-struct TrialOptions {
-  std::uint64_t seed = 1;
-  unsigned threads = 1;
-  double rms_allowance = 1.2;  // of CommissioningOptions
-  /// Polled between plants; true ends the work (@throws Interrupted).
-  std::function<bool()> stop = {};
-  /// Called with the numbers of plants done and in total, from the calling thread.
-  std::function<void(std::size_t, std::size_t)> progress = {};
-};
 
 /// One stage on plants that are as the uncertainty set says.
 struct StageTrial {

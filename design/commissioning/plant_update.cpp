@@ -9,16 +9,13 @@
 
 #include <boresight/design/commissioning/plant_update.hpp>
 #include <boresight/numerics/error.hpp>
-#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/numerics/statistics/distribution_quantiles.hpp>
-#include <boresight/plant/antenna/antenna_change.hpp>
 
 namespace boresight::design {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t fewest_plants = 20;
-constexpr std::size_t plants_together = 50;
 // Effective plants that make intervals of their own, and how many times the plants asked for may be
 // drawn for them.
 constexpr double enough = 40.0;
@@ -191,28 +188,20 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
   PlantUpdate update;
   update.quantities = quantities_of(records);
   check(plan, records, update.quantities, count);
-  const TrackingProblem problem = tracking_problem(mission);
-  const WindTable wind(problem);
+  const TrialAntenna antenna(mission, move);
   std::vector<Drawn> drawn;
   const auto draw_more = [&](std::size_t more) {
     const std::size_t before = drawn.size();
     drawn.resize(before + more);
-    for (std::size_t first = before; first < drawn.size(); first += plants_together) {
-      if (options.stop && options.stop()) throw Interrupted("interrupted by the user");
-      const std::size_t together = std::min(plants_together, drawn.size() - first);
-      numerics::for_each_index(together, options.threads, [&](std::size_t i) {
-        Drawn& one = drawn[first + i];
-        one.sample = distribution.draw(options.seed, first + i);
-        StageObserver observer(
-            problem, plant::linear_plant(plant::changed(mission.antenna, changes_of(one.sample))),
-            wind, move);
-        one.mismatch = mismatch_of(observer, plan, records);
-        one.final_rms = observer.observe(plan.stages.back().controller).boresight_rms;
-        // One that is unstable at the end has no rms: it cannot be left.
-        if (!std::isfinite(one.final_rms)) one.mismatch = infinity;
-      });
-      if (options.progress) options.progress(first + together, drawn.size());
-    }
+    for_each_plant(before, drawn.size(), options, [&](std::size_t i) {
+      Drawn& one = drawn[i];
+      one.sample = distribution.draw(options.seed, i);
+      StageObserver observer = antenna.observer(changes_of(one.sample));
+      one.mismatch = mismatch_of(observer, plan, records);
+      one.final_rms = observer.observe(plan.stages.back().controller).boresight_rms;
+      // One that is unstable at the end has no rms: it cannot be left.
+      if (!std::isfinite(one.final_rms)) one.mismatch = infinity;
+    });
   };
   const double explained =
       numerics::chi_squared_quantile(certainty, static_cast<double>(update.quantities));
@@ -225,15 +214,10 @@ PlantUpdate updated_plants(const Mission& mission, const PlantDistribution& dist
   update.mismatch = least_mismatch(drawn);
   update.explained = update.mismatch <= explained;
   if (!update.explained) {
-    std::vector<double> mismatches(faults.size());
-    numerics::for_each_index(faults.size(), options.threads, [&](std::size_t i) {
-      StageObserver observer(
-          problem, plant::linear_plant(plant::changed(mission.antenna, faults[i].changes)), wind,
-          move, faults[i].factors);
-      mismatches[i] = mismatch_of(observer, plan, records);
-    });
-    for (std::size_t i = 0; i < faults.size(); ++i) {
-      if (mismatches[i] < update.mismatch) update.faults.push_back({faults[i].name, mismatches[i]});
+    for (const AntennaFault& fault : faults) {
+      StageObserver observer = antenna.observer(fault.changes, fault.factors);
+      const double mismatch = mismatch_of(observer, plan, records);
+      if (mismatch < update.mismatch) update.faults.push_back({fault.name, mismatch});
     }
     std::ranges::stable_sort(update.faults, {}, &FaultFit::mismatch);
   }

@@ -139,11 +139,12 @@ StageVerdict verdict_on(StageQuantity quantity, double value, double uncertainty
 
 StageEvaluation evaluated(const StageObservation& seen, const CommissioningStage& stage,
                           double rms_allowance) {
-  if (!seen.stable) return {StageVerdict::abort, false, std::nullopt};
+  if (!seen.stable) return {StageVerdict::abort, false, std::nullopt, {}};
   StageEvaluation evaluation;
   for (const StageQuantity quantity : measured_quantities(stage)) {
     const StageVerdict verdict =
         verdict_on(quantity, value_of(quantity, seen), 0.0, stage, rms_allowance);
+    if (verdict != StageVerdict::passes) evaluation.outside.push_back(quantity);
     if (verdict > evaluation.verdict) {
       evaluation.verdict = verdict;
       evaluation.worst = quantity;

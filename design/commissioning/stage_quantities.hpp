@@ -60,11 +60,12 @@ std::string_view to_string(StageVerdict verdict);
 StageVerdict verdict_on(StageQuantity quantity, double value, double uncertainty,
                         const CommissioningStage& stage, double rms_allowance);
 
-/// The verdict on all quantities that a plant shows in a stage, the worst of them, and which it is.
+/// The verdict on all quantities that a plant shows in a stage: the worst of them.
 struct StageEvaluation {
   StageVerdict verdict = StageVerdict::passes;
   bool stable = true;
   std::optional<StageQuantity> worst;  // of a verdict that is not passes; none: unstable
+  std::vector<StageQuantity> outside;  // all that do not pass; none of an unstable loop
 };
 StageEvaluation evaluated(const StageObservation& seen, const CommissioningStage& stage,
                           double rms_allowance);

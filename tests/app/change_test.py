@@ -99,18 +99,18 @@ class Change(unittest.TestCase):
         done = self.run_program(self.records("calm", 0.05, 2.0), self.records("storm", 0.05, 9.0))
         self.assertEqual(done.returncode, 3)
         self.assertIn("No verdict: the mean wind speeds do not overlap", done.stdout)
-        self.assertNotIn("times before", done.stdout)
+        self.assertNotIn("times that before", done.stdout)
 
     def test_writes_a_change_record_of_one_page(self):
         file = self.path / "record.html"
         done = self.run_program(self.records("before", 0.05, 5.0),
                                 self.records("after", 0.03, 7.0, direction=260),
                                 "--change-record", str(file))
-        self.assertIn("times before at", done.stdout)
+        self.assertIn("times that before, at a mean wind speed of", done.stdout)
         self.assertIn("different directions", done.stdout)
         html = file.read_text(encoding="utf-8")
         xml.etree.ElementTree.fromstring(html.split("\n", 1)[1])
-        for part in ("Change record", "times before at", "kr", "Checks", "initials"):
+        for part in ("Change record", "times that before, at a mean wind speed of", "kr", "Checks", "initials"):
             self.assertIn(part, html)
 
     def test_refuses_half_a_comparison_and_files_without_wind(self):

@@ -31,13 +31,15 @@ ChangeReport report_of(design::Change change, const design::RatioBand& ratio) {
 
 TEST(ChangeDecision, SaysRatioVerdictAndPrediction) {
   EXPECT_THAT(decision(report_of(design::Change::better, {0.52, 0.47, 0.58})),
-              ElementsAre("After is 0.52 (0.47 to 0.58) times before at 8.3 m/s: better, "
-                          "significant at 95 %; predicted 0.49 (0.40 to 0.60): held."));
+              ElementsAre("Boresight error rms after the change is 0.52 (0.47 to 0.58) times that "
+                          "before, at a mean wind speed of 8.3 m/s: better, significant at 95 %; "
+                          "the linear model predicted 0.49 (0.40 to 0.60): held."));
   auto none = report_of(design::Change::none, {0.98, 0.9, 1.06});
   none.predicted->held = false;
   EXPECT_THAT(decision(none),
-              ElementsAre("After is 0.98 (0.90 to 1.06) times before at 8.3 m/s: no change that is "
-                          "significant at 95 %; predicted 0.49 (0.40 to 0.60): NOT held."));
+              ElementsAre("Boresight error rms after the change is 0.98 (0.90 to 1.06) times that "
+                          "before, at a mean wind speed of 8.3 m/s: no change that is significant "
+                          "at 95 %; the linear model predicted 0.49 (0.40 to 0.60): NOT held."));
 }
 
 TEST(ChangeDecision, GivesNoVerdictWithoutCommonWind) {
@@ -53,14 +55,14 @@ TEST(ChangeDecision, GivesNoVerdictWithoutCommonWind) {
       decision(report)[0],
       HasSubstr("No verdict: the mean wind speeds do not overlap, 2.0 to 5.0 m/s before and "
                 "8.0 to 11.0 m/s after"));
-  EXPECT_THAT(to_text(report), Not(HasSubstr("times before")));
+  EXPECT_THAT(to_text(report), Not(HasSubstr("times that before")));
   report.comparison.kind = design::WindComparisonKind::too_few_records;
   EXPECT_THAT(decision(report)[0], HasSubstr("at least three of each"));
 }
 
 TEST(ChangeText, BeginsWithTheDecisionAndListsEveryCheck) {
   const std::string text = to_text(report_of(design::Change::better, {0.52, 0.47, 0.58}));
-  EXPECT_LT(text.find("After is 0.52"), text.find("Evidence"));
+  EXPECT_LT(text.find("after the change is 0.52"), text.find("Evidence"));
   EXPECT_LT(text.find("Evidence"), text.find("Checks"));
   EXPECT_THAT(text, HasSubstr("pass"));
   EXPECT_THAT(text, HasSubstr("FAIL"));
@@ -70,9 +72,9 @@ TEST(ChangeText, BeginsWithTheDecisionAndListsEveryCheck) {
 TEST(ChangeRecord, HasGainsEvidenceChecksAndRoomToSign) {
   const std::string html = change_record(report_of(design::Change::better, {0.52, 0.47, 0.58}));
   for (const char* part :
-       {"Change record: Dish &lt;70 m&gt;", "After is 0.52", "Before: PI (from the case)",
-        "kr rate gain", "After: DPF (of gains.toml)", "Evidence", "Checks", "FAIL", "initials",
-        "date"}) {
+       {"Change record: Dish &lt;70 m&gt;", "after the change is 0.52",
+        "Before: PI (from the case)", "kr rate gain", "After: DPF (of gains.toml)", "Evidence",
+        "Checks", "FAIL", "initials", "date"}) {
     EXPECT_THAT(html, HasSubstr(part));
   }
   EXPECT_THAT(html, Not(HasSubstr("<script")));

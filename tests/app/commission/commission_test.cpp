@@ -144,8 +144,8 @@ TEST(Commission, WritesSheetsBodePlotsAndTheControllerOfEveryStage) {
   const std::string sheets = content_of(folder.file("plan/sheets.csv"));
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(sheets, '\n')), checks + 1);
   // The valve's signal in percent of its stroke, the tachometer in volts.
-  EXPECT_THAT(sheets, HasSubstr("\"valve command, still air\",\"% rms\""));
-  EXPECT_THAT(sheets, HasSubstr("\"tachometer, still air\",\"V rms\""));
+  EXPECT_THAT(sheets, HasSubstr("\"valve command, still air\",% rms,"));
+  EXPECT_THAT(sheets, HasSubstr("\"tachometer, still air\",V rms,"));
   const std::string page = content_of(folder.file("plan/sheets.html"));
   EXPECT_THAT(page, HasSubstr("measured"));
   EXPECT_THAT(page, HasSubstr("initials"));
@@ -172,7 +172,8 @@ TEST(Commission, TriesFreshPlantsAndWrongAntennas) {
   for (const auto& trial : stages) {
     EXPECT_EQ(trial.at("plants"), 20);
     EXPECT_EQ(trial.at("stable"), 20);
-    EXPECT_LE(trial.at("passing"), trial.at("plants"));
+    // Of brackets at 99 % for each check, a few of 20 plants may leave one.
+    EXPECT_GE(trial.at("passing"), 16);
   }
   const auto& faults = plan.at("faults");
   const auto sign = std::ranges::find_if(

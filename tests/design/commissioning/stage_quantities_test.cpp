@@ -8,13 +8,13 @@ namespace boresight::design {
 namespace {
 
 using testing::ElementsAre;
-using enum StageQuantity;
 
 const CommissioningStage& first_stage() {
   return reference::planned_stages().plan.stages.front();
 }
 
 TEST(StageQuantities, AreThoseOfTheLoopThatIsClosed) {
+  using enum StageQuantity;
   const auto& stages = reference::planned_stages().plan.stages;
   EXPECT_THAT(measured_quantities(stages.front()),
               ElementsAre(rise_time, overshoot, settling_time, valve_per_rate, calm_valve,
@@ -28,6 +28,7 @@ TEST(StageQuantities, AreThoseOfTheLoopThatIsClosed) {
 }
 
 TEST(StageQuantities, AreReadFromObservationAndExpectationAlike) {
+  using enum StageQuantity;
   StageObservation seen;
   seen.rise_time = 1.0;
   seen.overshoot = 2.0;
@@ -52,6 +53,7 @@ TEST(StageQuantities, AreReadFromObservationAndExpectationAlike) {
 
 // Above the bracket but not beyond the limit the cause is to be found; beyond it, back.
 TEST(StageVerdict, GoesFromPassingToAbort) {
+  using enum StageQuantity;
   CommissioningStage stage = first_stage();
   stage.expected.overshoot = {0.1, 0.1, 0.1, 0.08, 0.12};
   stage.abort.overshoot = 0.2;
@@ -71,6 +73,7 @@ TEST(StageVerdict, GoesFromPassingToAbort) {
 }
 
 TEST(StageVerdict, AllowsAnRmsWhatTheSensorsNoiseMayBe) {
+  using enum StageQuantity;
   CommissioningStage stage = first_stage();
   stage.expected.calm_tachometer = {1.0, 1.0, 1.0, 0.9, 1.1};
   EXPECT_EQ(verdict_on(calm_tachometer, 1.31, 0.0, stage, 1.2), StageVerdict::passes);
@@ -81,6 +84,7 @@ TEST(StageVerdict, AllowsAnRmsWhatTheSensorsNoiseMayBe) {
 }
 
 TEST(EvaluatedStage, NamesTheWorstQuantity) {
+  using enum StageQuantity;
   const auto& planned = reference::planned_stages();
   const TrackingProblem problem = tracking_problem(planned.mission);
   StageObserver observer(problem, problem.plant, WindTable(problem), planned.move);

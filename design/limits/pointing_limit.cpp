@@ -12,6 +12,7 @@
 #include <boresight/design/limits/controller_refinement.hpp>
 #include <boresight/design/limits/parallel_sections.hpp>
 #include <boresight/design/limits/pointing_limit.hpp>
+#include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
@@ -116,6 +117,21 @@ bool is_better(const RefinementResult& one, const RefinementResult& than) {
   return (1.0 + price) * one.boresight_rms < than.boresight_rms;
 }
 
+// Which Constraints::static_encoder_error asks of a controller without integral on every plant;
+// none with a limit of 0, which only an integral meets.
+std::optional<double> least_static_gain(const TrackingProblem& problem, const Constraints& goals,
+                                        const std::vector<EnsembleMember>& members) {
+  if (!(goals.static_encoder_error.value_or(0.0) > 0.0)) return std::nullopt;
+  double demand = std::abs(mean_wind_load(problem).demand);
+  TrackingProblem other = problem;
+  for (const EnsembleMember& member : members) {
+    other.plant = member.plant;
+    demand = std::max(demand, std::abs(mean_wind_load(other).demand));
+  }
+  if (!(demand > 0.0)) return std::nullopt;
+  return demand / (*goals.static_encoder_error * problem.gear_ratio);
+}
+
 class Study {
  public:
   Study(const TrackingProblem& problem, const Constraints& goals,
@@ -159,6 +175,7 @@ class Study {
     refined_goals_.sensitivity_peak = 1.0 + used_of_peak * (goals_.sensitivity_peak - 1.0);
     refined_goals_.control_effort *= used_of_effort;
     refined_goals_.position_peak = goals.sensitivity_peak[2];
+    refined_goals_.static_gain = least_static_gain(problem, goals, members);
     if (!goals.standstill) return;
     stated_slopes_ = goals.standstill->friction.size();
     for (std::size_t i = 0; i < at_edges.size(); ++i) {

@@ -65,6 +65,20 @@ std::array<MatrixXd, sensors> transposed_derivatives(const ParallelSections::Res
   return result;
 }
 
+// 1/abs(K) from the encoder at the lowest frequency, which is three decades below all poles.
+PeakFigure inverse_at_rest(const ArrayXXcd& controller) {
+  constexpr Index encoder = 1;
+  const std::complex<double> gain = controller(0, encoder);
+  PeakFigure figure;
+  figure.logarithm = -std::log(std::abs(gain));
+  // d(-ln abs(K)) = -Re(dK/K) = 2 Re(gradient dK).
+  PeakFigure::Point point;
+  point.frequency = 0;
+  point.gradient.at(encoder) = -0.5 / gain;
+  figure.points.push_back(point);
+  return figure;
+}
+
 // At each frequency the Hermitian form of a change of the response to the sensors.
 ArrayXXcd quadratic_form(const SampledSpectrum& spectrum, double goal, const ArrayXXcd& controller,
                          bool with_rms) {
@@ -112,8 +126,9 @@ RefinementProblem::RefinementProblem(const plant::StateSpace& start,
     (i < loops ? evaluators_ : locked_).emplace_back(spectra_[i]);
   }
   spectra_.resize(loops);
+  const std::size_t at_rest = constraints.goals().static_gain ? 1 : 0;
   corrections_ = of_centre_ = VectorXd::Constant(
-      static_cast<Index>(loops + limited_positions_ + locked_.size()), peak_margin);
+      static_cast<Index>(loops + limited_positions_ + locked_.size() + at_rest), peak_margin);
   references_ = constraints.rms(start).array().log();
   references_.tail(static_cast<Index>(rated_ - moving_)).array() +=
       std::log(allowance_at_standstill);
@@ -191,7 +206,7 @@ VectorXd RefinementProblem::moved(const std::vector<double>& point) const {
 RefinementProblem::Figures RefinementProblem::figures(const ArrayXXcd& response,
                                                       bool with_rms) const {
   const std::vector<SensorPack> controller = packed_response(response);
-  Figures result{std::vector<LoopFigures>(all()), {}};
+  Figures result{std::vector<LoopFigures>(all()), {}, {}};
   numerics::for_each_index(all(), constraints_.threads(), [&](std::size_t i) {
     if (with_rms && i < rated_) {
       result.loops[i] = evaluators_[i].figures(controller);
@@ -202,6 +217,7 @@ RefinementProblem::Figures RefinementProblem::figures(const ArrayXXcd& response,
   for (const LoopFigureEvaluator& one : locked_) {
     result.locked.push_back(one.locked_motor_gain(controller));
   }
+  if (constraints_.goals().static_gain) result.at_rest.push_back(inverse_at_rest(response));
   return result;
 }
 
@@ -220,6 +236,9 @@ VectorXd RefinementProblem::peaks(const Figures& figures) const {
   for (std::size_t i = 0; i < locked_.size(); ++i) {
     result[static_cast<Index>(all() + limited_positions_ + i)] =
         figures.locked[i].logarithm - std::log(*goals.locked_motor_gain);
+  }
+  for (const PeakFigure& one : figures.at_rest) {
+    result[result.size() - 1] = one.logarithm + std::log(*goals.static_gain);
   }
   return result;
 }
@@ -320,6 +339,9 @@ void RefinementProblem::evaluate(const std::vector<double>& point,
   for (std::size_t i = 0; i < locked_.size(); ++i) {
     by_peaks.col(static_cast<Index>(all() + limited_positions_ + i)) =
         by_parameters(derivatives, found.locked[i]);
+  }
+  for (const PeakFigure& one : found.at_rest) {
+    by_peaks.col(by_peaks.cols() - 1) = by_parameters(derivatives, one);
   }
   const MatrixXd gradients = directions_.transpose() * by_peaks;
   for (Index row = 0; row < peak.size(); ++row) {

@@ -72,8 +72,9 @@ class RefinementProblem {
                                 std::span<const RmsFigure* const> figures) const;
   Eigen::VectorXd by_parameters(const Derivatives& derivatives, const PeakFigure& figure) const;
   struct Figures {
-    std::vector<LoopFigures> loops;  // a plant each; the rms only of those rated
-    std::vector<PeakFigure> locked;  // the gain on a locked motor
+    std::vector<LoopFigures> loops;   // a plant each; the rms only of those rated
+    std::vector<PeakFigure> locked;   // the gain on a locked motor
+    std::vector<PeakFigure> at_rest;  // the inverse of the static gain, if limited
   };
   Figures figures(const Eigen::ArrayXXcd& response, bool with_rms) const;
   Eigen::VectorXd peaks(const Figures& figures) const;

@@ -8,6 +8,7 @@
 #include <boresight/design/limits/robust_constraints.hpp>
 #include <boresight/numerics/eigenvalues.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/linear_solve.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 
 namespace boresight::design {
@@ -17,12 +18,20 @@ namespace {
 constexpr double reserve = 1e-3;
 constexpr double unstable = 3.0;
 
+// 1/s, from encoder to command.
+double static_gain(const plant::StateSpace& controller) {
+  const Eigen::Index column = plant::input_index(controller, "encoder");
+  return std::abs(numerics::transfer_matrix(controller.a, controller.b.col(column), controller.c,
+                                            controller.d.col(column), 1.0)(0, 0));
+}
+
 }  // namespace
 
 void validate(const SampledLoopGoals& goals) {
   if (goals.sensitivity_peak > 1.0 && goals.standstill_peak > 1.0 && goals.edge_peak > 1.0 &&
       goals.position_peak.value_or(2.0) > 1.0 && goals.control_effort > 0.0 &&
-      goals.locked_motor_gain.value_or(1.0) > 0.0) {
+      goals.locked_motor_gain.value_or(1.0) > 0.0 && goals.static_gain.value_or(1.0) > 0.0 &&
+      std::isfinite(goals.static_gain.value_or(1.0))) {
     return;
   }
   const auto if_given = [](const char* text, const std::optional<double>& value) {
@@ -30,10 +39,11 @@ void validate(const SampledLoopGoals& goals) {
   };
   throw InvalidInput(fmt::format(
       "sampled loops: expected maximum sensitivities above 1, a control effort and a gain above "
-      "0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}",
+      "0, found {}, {} at standstill, {} at an edge{} and {} rad/s{}{}",
       goals.sensitivity_peak, goals.standstill_peak, goals.edge_peak,
       if_given(", {} of the position loop", goals.position_peak), goals.control_effort,
-      if_given(", {} N.m/rad", goals.locked_motor_gain)));
+      if_given(", {} N.m/rad", goals.locked_motor_gain),
+      if_given(", {} 1/s at rest", goals.static_gain)));
 }
 
 RobustConstraints::RobustConstraints(const ConstrainedPlants& plants, const SampledLoopGoals& goals,
@@ -89,12 +99,17 @@ Eigen::VectorXd RobustConstraints::peaks(const plant::StateSpace& controller) co
   }
   if (goals_.locked_motor_gain)
     limit(on_.motor_locked, &SampledSetting::highest_locked_motor_gain, *goals_.locked_motor_gain);
-  Eigen::VectorXd ratios(static_cast<Eigen::Index>(limited.size()));
+  const auto peaks = static_cast<Eigen::Index>(limited.size());
+  Eigen::VectorXd ratios(peaks + (goals_.static_gain ? 1 : 0));
   numerics::for_each_index(limited.size(), threads_, [&](std::size_t i) {
     const auto& [setting, peak, goal] = limited[i];
     const double found = (setting->*peak)(response).magnitude;
     ratios[static_cast<Eigen::Index>(i)] = std::isfinite(found) ? std::log(found / goal) : HUGE_VAL;
   });
+  if (goals_.static_gain) {
+    const double found = static_gain(controller);
+    ratios[peaks] = found > 0.0 ? std::log(*goals_.static_gain / found) : HUGE_VAL;
+  }
   return ratios;
 }
 

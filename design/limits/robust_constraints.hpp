@@ -24,9 +24,12 @@ struct SampledLoopGoals {
   /// Largest gain from encoder to motor torque (SampledSetting::highest_locked_motor_gain), N
   /// m/rad, on plants whose motor friction locks. Not limited without.
   std::optional<double> locked_motor_gain = std::nullopt;
+  /// Least static gain from encoder to command, 1/s (control::static_encoder_gain), of the
+  /// controller alone. Not limited without.
+  std::optional<double> static_gain = std::nullopt;
 };
 
-/// @throws InvalidInput for a peak not above 1 and an effort or gain not above 0.
+/// @throws InvalidInput for a peak not above 1 and an effort or gain not above 0 and finite.
 void validate(const SampledLoopGoals& goals);
 
 /// The plants of RobustConstraints. Every loop but those of motor_locked must be stable, and
@@ -71,8 +74,8 @@ class RobustConstraints {
 
   /// ln of the ratio of each peak to its goal: of |S| at the valve command on the plants, those at
   /// standstill, those at edges and the corners, then of the position loop's, if limited, on the
-  /// plants and those at standstill, then of the gain on a locked motor, if limited. Without regard
-  /// to stability.
+  /// plants and those at standstill, then of the gain on a locked motor, if limited, then of the
+  /// least static gain to the controller's, if limited. Without regard to stability.
   Eigen::VectorXd peaks(const plant::StateSpace& controller) const;
 
   /// Boresight rms (rad of motor) on the plants, then on those at standstill, with a controller

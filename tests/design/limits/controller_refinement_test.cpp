@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "design/reference_problem.hpp"
 #include "lag_loops.hpp"
 #include "refused_call.hpp"
+#include <boresight/control/controllers/controller.hpp>
 #include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/limits/controller_refinement.hpp>
 #include <boresight/design/limits/lqg_search.hpp>
@@ -182,6 +184,37 @@ TEST(ControllerRefinement, LeadsAStartThatViolatesConstraintsToWhereItMeetsThem)
   // Only the first step is without.
   const double at_first = evaluated.back();
   EXPECT_EQ(with([&](double rms) { return rms < at_first ? 3 : 0; }).boresight_rms, at_first);
+}
+
+// From loops that have less static gain than is asked, and in exact agreement with the gain by
+// which a steady load is judged.
+TEST(ControllerRefinement, ReachesTheStaticGainThatIsAsked) {
+  const LoopsWithIdlePairs loops;
+  const auto static_gain = [](const plant::StateSpace& controller) {
+    plant::StateSpace named = controller;
+    named.outputs = {"valve_demand"};
+    return control::static_encoder_gain(control::state_space_controller("refined", named));
+  };
+  SampledLoopGoals goals{2.5, 0.6};
+  const auto refined = [&] {
+    return refine_controller(loops.start, {{loops.plants}, goals, 1},
+                             {.steps = 40, .poles = {.slowest = 0.3}});
+  };
+  const auto free = refined();
+  ASSERT_TRUE(free.feasible);
+  goals.static_gain = 1.4 * std::max(static_gain(free.controller), static_gain(loops.start));
+  const RobustConstraints constraints({loops.plants}, goals, 1);
+  EXPECT_NEAR(constraints.peaks(loops.start).tail(1)[0],
+              std::log(*goals.static_gain / static_gain(loops.start)), 1e-9);
+  const auto limited = refined();
+  ASSERT_TRUE(limited.feasible);
+  EXPECT_GE(static_gain(limited.controller), *goals.static_gain);
+  EXPECT_LT(static_gain(limited.controller), 1.1 * *goals.static_gain);
+  // Either is a local optimum.
+  EXPECT_GT(limited.boresight_rms, 0.95 * free.boresight_rms);
+  EXPECT_LT(limited.boresight_rms, loops.rms(loops.start));
+  goals.static_gain = -1.0;
+  EXPECT_THROW(validate(goals), InvalidInput);
 }
 
 // The structure is less damped than the controller's poles may be.

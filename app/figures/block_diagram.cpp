@@ -188,6 +188,10 @@ std::string factor_text(const control::LoopBlock& block) {
       return fmt::format("s/(s + {})", first);
     case control::BlockKind::notch:
       return "N(s)";
+    case control::BlockKind::dead_zone:
+      return "dead zone of the integral";
+    case control::BlockKind::freeze:
+      return "freeze of the integral";
   }
   return first;
 }

@@ -145,7 +145,9 @@ const LoopModel = (() => {
   // Each block with its own gains.
   const placed = (data, gains) => {
     let next = 0;
-    return data.blocks.map(({ path, kind, gains: of_block }) => ({ path, kind, g: gains.slice(next, (next += of_block.length)) }));
+    const all = data.blocks.map(({ path, kind, gains: of_block }) => ({ path, kind, g: gains.slice(next, (next += of_block.length)) }));
+    // The linear loop is that of an integral without dead zone or freeze.
+    return all.filter(({ kind }) => kind !== "dead_zone" && kind !== "freeze");
   };
 
   const blockAt = (kind, g, w) => {

@@ -284,6 +284,10 @@ Document limits_part(const TuneSection& section) {
     for (const auto& limit : tuning.limits) limits.push_back(limit.description());
     if (limits.empty()) limits = tuning.active_constraints;
     if (limits.empty()) limits.emplace_back("none");
+    const auto& check = row.design.verification;
+    if (row.constraints_met && !check.passed) {
+      limits.push_back(fmt::format("NOT VERIFIED: {}", check.failure));
+    }
     text += wrapped(fmt::format("{}, {}, {:.3g} m/s: {}.", row.structure, to_string(row.tuned_for),
                                 row.wind_speed, fmt::join(limits, "; ")),
                     "  ", "  ");

@@ -10,6 +10,7 @@
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/linear_solve.hpp>
 #include <boresight/plant/linear/interconnection.hpp>
+#include <boresight/plant/linear/sampling.hpp>
 
 namespace boresight::control {
 namespace {
@@ -136,13 +137,29 @@ AntennaController::AntennaController(const Controller& controller, double sample
   const plant::StateSpace sampled = sampled_controller(controller, sample_time);
   const plant::StateSpace seen = expects_torque_ ? about_motion(*controller.structure.state_space())
                                                  : in_ports(sampled, reads_torque_);
+  set(seen);
+  if (!expects_torque_ && options.anti_windup) prevent_windup(controller);
+  if (controller.structure.has_conditional_integral()) set_conditional(controller);
+}
+
+void AntennaController::set(const plant::StateSpace& seen) {
   a_ = seen.a;
   b_ = seen.b;
   c_ = seen.c;
   d_ = seen.d;
-  initial_ = state_ = next_ = Eigen::VectorXd::Zero(a_.rows());
-  back_calculation_ = Eigen::VectorXd::Zero(a_.rows());
-  if (!expects_torque_ && options.anti_windup) prevent_windup(controller);
+  initial_ = state_ = next_ = back_calculation_ = Eigen::VectorXd::Zero(a_.rows());
+}
+
+void AntennaController::set_conditional(const Controller& controller) {
+  const Controller rest = without_conditional_integral(controller);
+  set(in_ports(sampled_controller(rest, sample_time_), reads_torque_));
+  integral_.emplace(*conditional_integral(controller), sample_time_);
+  integral_back_calculation_ = back_calculation_fraction_ / (path_gain(rest, LoopPath::rate) *
+                                                             path_gain(rest, LoopPath::position));
+  if (!rest.structure.has(LoopPath::compliance)) return;
+  compliance_ = plant::sample(compliance_compensator(prewarped(rest, sample_time_)), sample_time_,
+                              plant::SamplingMethod::tustin);
+  flexure_state_ = initial_flexure_state_ = Eigen::VectorXd::Zero(compliance_->a.rows());
 }
 
 void AntennaController::prevent_windup(const Controller& controller) {
@@ -193,6 +210,8 @@ double AntennaController::friction_torque(double rate) const {
 
 void AntennaController::restart() {
   state_ = initial_;
+  flexure_state_ = initial_flexure_state_;
+  if (integral_) integral_->start_from(initial_integral_);
   friction_ = built_friction_ = initial_friction_;
 }
 
@@ -206,22 +225,39 @@ void AntennaController::update(double /*time*/, const Eigen::Ref<const Eigen::Ve
   const double added =
       forward.rate_to_rate_command * rate + forward.acceleration_to_rate_command * acceleration;
   const double friction = friction_torque(rate + acceleration * sample_time_);
+  const double excess = reads_torque_ ? measured[measured_torque] -
+                                            expected_torque(rate, acceleration) - built_friction_
+                                      : 0.0;
+  const double flexure =
+      compliance_ ? compliance_->c.row(0).dot(flexure_state_) + compliance_->d(0, 0) * excess : 0.0;
+  const auto with_integral = [&](double angle) {
+    return integral_ ? flexure + integral_->with_integral(angle - flexure) : angle;
+  };
+  const double angle = with_integral(error);
   double wanted =
       valve_feedforward(rate, acceleration, friction, (friction - friction_) / sample_time_) +
-      d_[tachometer] * measured[measured_rate] + d_[angle_error] * error +
+      d_[tachometer] * measured[measured_rate] + d_[angle_error] * angle +
       d_[rate_feedforward] * added;
   wanted += c_.dot(state_);
   next_.noalias() = a_ * state_;
-  next_ += b_.col(tachometer) * measured[measured_rate] + b_.col(angle_error) * error +
+  next_ += b_.col(tachometer) * measured[measured_rate] + b_.col(angle_error) * angle +
            b_.col(rate_feedforward) * added;
   if (reads_torque_) {
-    const double excess =
-        measured[measured_torque] - expected_torque(rate, acceleration) - built_friction_;
     wanted += d_[torque] * excess;
     next_ += b_.col(torque) * excess;
   }
   commands[0] = std::clamp(wanted, -options_.command_limit, options_.command_limit);
-  next_ -= back_calculation_ * (wanted - commands[0]);
+  const double cut = wanted - commands[0];
+  next_ -= back_calculation_ * cut;
+  if (integral_) {
+    // As from the angle that the limited command could have followed.
+    const double followed = error + integral_back_calculation_ * cut;
+    next_ += b_.col(angle_error) * (with_integral(followed) - angle);
+    integral_->advance(followed - flexure);
+    if (compliance_) {
+      flexure_state_ = (compliance_->a * flexure_state_ + compliance_->b.col(0) * excess).eval();
+    }
+  }
   state_.swap(next_);
   built_friction_ = friction_;
   friction_ = friction;
@@ -251,8 +287,23 @@ double AntennaController::start_from(const SteadyMotion& motion) {
   const Eigen::VectorXd steady =
       numerics::linear_solve(equations, right, "antenna controller: steady motion");
   initial_ = steady.head(states);
+  double lead = steady[states];
+  if (integral_) {
+    // The integral gives what the rest takes of the angle; it holds at no corrected angle.
+    const double held = lead;
+    lead = 0.0;
+    if (compliance_) {
+      const Index order = compliance_->a.rows();
+      const Eigen::MatrixXd left = Eigen::MatrixXd::Identity(order, order) - compliance_->a;
+      initial_flexure_state_ = numerics::linear_solve(left, compliance_->b * given[torque],
+                                                      "antenna controller: steady flexure");
+      lead =
+          compliance_->c.row(0).dot(initial_flexure_state_) + compliance_->d(0, 0) * given[torque];
+    }
+    initial_integral_ = held - lead;
+  }
   restart();
-  return steady[states];
+  return lead;
 }
 
 }  // namespace boresight::control

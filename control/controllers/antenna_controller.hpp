@@ -1,11 +1,13 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <boresight/control/controllers/conditional_integral.hpp>
 #include <boresight/control/controllers/controller.hpp>
 #include <boresight/plant/antenna/antenna_plant.hpp>
 #include <boresight/plant/antenna/friction.hpp>
@@ -117,6 +119,9 @@ struct AntennaControllerOptions {
 /// both integrators: at the limit the states of a PI-PI controller follow 2 s^2 + (wi + wip) s + wi
 /// wip = 0 instead of s^2 = 0. The injection is halved until the states at the limit are stable.
 ///
+/// A conditional integral takes the corrected angle through its dead zone or freeze at every
+/// sample. In a steady motion it is within it, at no error of the corrected angle.
+///
 /// A state-space controller regulates the measurements about the commanded motion: encoder less
 /// reference, tachometer less the rate command's feedforward, torque less that of the motion. It
 /// must be stable by itself, as it has no anti-windup.
@@ -149,7 +154,9 @@ class AntennaController final : public StartedController {
   double friction_torque(double rate) const;
   double valve_feedforward(double rate, double acceleration, double friction,
                            double friction_rate) const;
+  void set(const plant::StateSpace& seen);
   void prevent_windup(const Controller& controller);
+  void set_conditional(const Controller& controller);
 
   bool reads_torque_ = false;
   bool expects_torque_ = false;  // that of the motion: a state space's
@@ -159,6 +166,13 @@ class AntennaController final : public StartedController {
   Eigen::RowVectorXd c_, d_;
   Eigen::VectorXd back_calculation_;
   double back_calculation_fraction_ = 0.0;
+  // A conditional integral; the matrices above are then those of the rest. It takes the angle less
+  // what compliance compensation estimates as flexure.
+  std::optional<ConditionalIntegrator> integral_;
+  double integral_back_calculation_ = 0.0;  // rad of angle error per rad/s beyond the limit
+  std::optional<plant::StateSpace> compliance_;
+  Eigen::VectorXd flexure_state_, initial_flexure_state_;
+  double initial_integral_ = 0.0;
   Eigen::VectorXd initial_, state_, next_;
   // Friction torque fed forward: of the steady motion, of the command computed last and of the one
   // before, which acted on the torque that is measured.

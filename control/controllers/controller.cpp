@@ -186,6 +186,9 @@ CompensatorResponse compensator_response(const Controller& controller, double an
         compensator *= high;
         response.by_gain[k] = -low;
         break;
+      case BlockKind::dead_zone:
+      case BlockKind::freeze:
+        break;
       case BlockKind::notch: {
         const double square = value * value - w * w;
         const double zero = controller.gains[k + 1], pole = controller.gains[k + 2];
@@ -233,10 +236,13 @@ double static_encoder_gain(const Controller& controller) {
                                            system->d.block(row, column, 1, 1), 1.0)(0, 0));
     return std::isfinite(found) ? found : std::numeric_limits<double>::infinity();
   }
+  const bool holds = controller.structure.has_conditional_integral();
   double product = 1.0;
   for (const LoopPath path : {LoopPath::rate, LoopPath::position}) {
     for (const auto& [block, gains] : blocks_of(controller, path)) {
-      if (block->kind == BlockKind::integral) return std::numeric_limits<double>::infinity();
+      if (block->kind == BlockKind::integral && (path == LoopPath::rate || !holds)) {
+        return std::numeric_limits<double>::infinity();
+      }
       if (block->kind == BlockKind::gain) product *= gains[0];
     }
   }
@@ -292,6 +298,16 @@ plant::StateSpace rate_loop_controller(const Controller& controller) {
   std::vector<std::string> inputs{"tachometer"};
   if (controller.structure.has(LoopPath::pressure)) inputs.emplace_back("motor_torque");
   return plant::connect(parts, inputs, {"valve_demand"});
+}
+
+plant::StateSpace compliance_compensator(const Controller& controller) {
+  validate(controller);
+  if (!controller.structure.has(LoopPath::compliance)) {
+    throw InvalidInput(
+        fmt::format("controller: {} has no compliance compensation", controller.structure.name()));
+  }
+  return plant::connect(chain(controller, LoopPath::compliance, "motor_torque", "flexure"),
+                        {"motor_torque"}, {"flexure"});
 }
 
 }  // namespace boresight::control

@@ -46,8 +46,9 @@ struct CompensatorResponse {
 CompensatorResponse compensator_response(const Controller& controller, double angular_frequency);
 
 /// Static gain (1/s) from the encoder's error to the valve demand, at rest. For loops it is the
-/// product of the gains of rate and position path, infinite with an integral in either; for a
-/// state space the static gain from encoder to valve_demand, infinite with a pole at z = 1.
+/// product of the gains of rate and position path, infinite with an integral in either that takes
+/// every error (a conditional one holds at rest); for a state space the static gain from encoder to
+/// valve_demand, infinite with a pole at z = 1.
 double static_encoder_gain(const Controller& controller);
 
 /// The Nyquist frequency of a state space (rad/s); infinite for loops, which are continuous. Beyond
@@ -70,6 +71,10 @@ plant::StateSpace to_state_space(const Controller& controller);
 /// The same with the position loop open: inputs tachometer, motor_torque (only with a pressure
 /// path); output valve_demand.
 plant::StateSpace rate_loop_controller(const Controller& controller);
+
+/// The compliance path: input motor_torque (N m), output flexure (rad). @throws InvalidInput for a
+/// controller without one.
+plant::StateSpace compliance_compensator(const Controller& controller);
 
 /// A state space with the ports of a controller with loops. It has no rate command; cut at its
 /// encoder it has one in form, rate_command = rate_disturbance - (1/s) encoder.

@@ -61,6 +61,12 @@ LoopBlock position_integral() {
   return block(LoopPath::position, BlockKind::integral,
                {{"position integral corner", "wip", "rad/s", 1e-4, 3.0}});
 }
+LoopBlock position_condition(BlockKind kind) {
+  const bool freeze = kind == BlockKind::freeze;
+  return block(LoopPath::position, kind,
+               {{freeze ? "position integral freeze" : "position integral dead zone",
+                 freeze ? "fzp" : "dzp", "rad", 0.001, 10.0}});
+}
 LoopBlock position_lag() {
   return block(LoopPath::position, BlockKind::lag,
                {{"position lag corner", "wpp", "rad/s", 0.03, 30.0}});
@@ -88,6 +94,24 @@ int count_of(const std::vector<LoopBlock>& blocks, LoopPath path, BlockKind kind
   }));
 }
 
+bool is_condition(BlockKind kind) {
+  return kind == BlockKind::dead_zone || kind == BlockKind::freeze;
+}
+
+void check_conditions(const std::string& name, const std::vector<LoopBlock>& blocks) {
+  const auto conditions = std::ranges::count_if(
+      blocks, [](const LoopBlock& candidate) { return is_condition(candidate.kind); });
+  if (conditions == 0) return;
+  const int own = count_of(blocks, LoopPath::position, BlockKind::dead_zone) +
+                  count_of(blocks, LoopPath::position, BlockKind::freeze);
+  const int integrals = count_of(blocks, LoopPath::position, BlockKind::integral);
+  if (conditions != 1 || own != 1 || integrals != 1) {
+    refuse(name, fmt::format("expected a dead zone or freeze alone, with one integral in the "
+                             "position path, found {} in all, {} and {} integrals in that path",
+                             conditions, own, integrals));
+  }
+}
+
 void check_paths(const std::string& name, const std::vector<LoopBlock>& blocks) {
   for (const LoopPath path :
        {LoopPath::rate, LoopPath::pressure, LoopPath::position, LoopPath::compliance}) {
@@ -109,6 +133,7 @@ void check_paths(const std::string& name, const std::vector<LoopBlock>& blocks) 
       count_of(blocks, LoopPath::pressure, BlockKind::washout) == 0) {
     refuse(name, "expected a washout in the pressure path: a static one makes the drive yield");
   }
+  check_conditions(name, blocks);
 }
 
 void check_gains(const std::string& name, const std::vector<LoopBlock>& blocks,
@@ -141,7 +166,7 @@ double nearest_power_of_ten(double factor) {
 // By which gain `k` of a block changes with a load that is so much faster and of so much more
 // inertia.
 double gain_factor(const LoopBlock& block, std::size_t k, double faster, double inertia) {
-  if (block.kind == BlockKind::notch && k > 0) return 1.0;
+  if ((block.kind == BlockKind::notch && k > 0) || is_condition(block.kind)) return 1.0;
   if (block.kind != BlockKind::gain) return faster;
   switch (block.path) {
     case LoopPath::rate:
@@ -164,7 +189,8 @@ std::string_view to_string(LoopPath path) {
 }
 
 std::string_view to_string(BlockKind kind) {
-  static constexpr std::array names{"gain", "integral", "lag", "lead", "washout", "notch"};
+  static constexpr std::array names{"gain",    "integral", "lag",       "lead",
+                                    "washout", "notch",    "dead_zone", "freeze"};
   return names.at(static_cast<std::size_t>(kind));
 }
 
@@ -264,6 +290,48 @@ LoopStructure LoopStructure::with_position_lag() const {
   return {fmt::format("P{}, position lag", name().substr(2)), std::move(blocks)};
 }
 
+namespace {
+
+// In place of the integrals, the position path's with a condition.
+std::vector<LoopBlock> with_condition(const LoopStructure& structure, BlockKind kind) {
+  if (structure.has_conditional_integral() || !structure.name().starts_with("P")) {
+    refuse(structure.name(), "expected a usual structure without a dead zone or freeze");
+  }
+  std::vector<LoopBlock> blocks = structure.blocks();
+  std::erase_if(blocks,
+                [](const LoopBlock& candidate) { return candidate.kind == BlockKind::integral; });
+  const auto gain = std::ranges::find_if(blocks, [](const LoopBlock& candidate) {
+    return candidate.path == LoopPath::position && candidate.kind == BlockKind::gain;
+  });
+  blocks.insert(std::next(gain), {position_integral(), position_condition(kind)});
+  return blocks;
+}
+
+}  // namespace
+
+LoopStructure LoopStructure::with_dead_zone() const {
+  return {name() + ", dead zone", with_condition(*this, BlockKind::dead_zone)};
+}
+
+LoopStructure LoopStructure::with_freeze() const {
+  return {name() + ", freeze", with_condition(*this, BlockKind::freeze)};
+}
+
+LoopStructure LoopStructure::with_integral_width(double width) const {
+  if (!(width > 0.0) || !std::isfinite(width)) {
+    refuse(name(), fmt::format("expected a width of the integral above 0, found {} rad", width));
+  }
+  if (!has_conditional_integral()) return *this;
+  constexpr double about = 4.0;
+  std::vector<LoopBlock> blocks = this->blocks();
+  for (LoopBlock& one : blocks) {
+    if (!is_condition(one.kind)) continue;
+    one.gains.front().lower = width / about;
+    one.gains.front().upper = width * about;
+  }
+  return {name(), std::move(blocks)};
+}
+
 LoopStructure LoopStructure::with_notch() const {
   std::vector<LoopBlock> blocks = this->blocks();
   blocks.push_back(rate_notch());
@@ -276,6 +344,8 @@ LoopStructure LoopStructure::named(std::string_view short_name) {
   if (compliance) base.remove_suffix(2);
   const bool notch = base.ends_with("+N");
   if (notch) base.remove_suffix(2);
+  const bool dead_zone = base.ends_with("+D"), freeze = base.ends_with("+F");
+  if (dead_zone || freeze) base.remove_suffix(2);
   const bool lag = base.ends_with("+L");
   if (lag) base.remove_suffix(2);
   const std::array<std::pair<std::string_view, const LoopStructure*>, 5> list{
@@ -289,12 +359,14 @@ LoopStructure LoopStructure::named(std::string_view short_name) {
   if (found == list.end()) {
     throw InvalidInput(
         fmt::format("loop structure: expected PI-0, PI, DPF, LL or FULL, with +L (position lag "
-                    "instead of integrals), +N (notch) and +C (compliance compensation) behind it "
-                    "as wanted, found '{}'",
+                    "instead of integrals), +D or +F (dead zone or freeze of the integral), +N "
+                    "(notch) and +C (compliance compensation) behind it as wanted, found '{}'",
                     short_name));
   }
   LoopStructure structure = *found->second;
   if (lag) structure = structure.with_position_lag();
+  if (dead_zone) structure = structure.with_dead_zone();
+  if (freeze) structure = structure.with_freeze();
   if (notch) structure = structure.with_notch();
   return compliance ? structure.with_compliance_compensation() : structure;
 }
@@ -348,9 +420,12 @@ std::size_t LoopStructure::parts() const {
 }
 
 bool LoopStructure::has_integral_action() const {
-  return count(LoopPath::rate, BlockKind::integral) +
-             count(LoopPath::position, BlockKind::integral) >
-         0;
+  return count(LoopPath::rate, BlockKind::integral) > 0 ||
+         (count(LoopPath::position, BlockKind::integral) > 0 && !has_conditional_integral());
+}
+
+bool LoopStructure::has_conditional_integral() const {
+  return std::ranges::any_of(blocks(), [](const LoopBlock& one) { return is_condition(one.kind); });
 }
 
 bool LoopStructure::feeds_torque_back() const {

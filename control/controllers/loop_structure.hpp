@@ -28,6 +28,9 @@ enum class BlockKind {
   lead,      // 1 + s/wz, not without a lag in the same path
   washout,   // s/(s + wd)
   notch,     // (s^2 + 2 zz wn s + wn^2)/(s^2 + 2 zp wn s + wn^2): wn, zz, zp
+  // What the position path's integral takes of the corrected angle x; 1 in all linear figures.
+  dead_zone,  // 0 within +-d, beyond it x less d
+  freeze,     // 0 within +-d: the integral holds; beyond it x
 };
 std::string_view to_string(BlockKind kind);
 std::size_t gain_count(BlockKind kind);
@@ -66,7 +69,8 @@ class LoopStructure {
   /// @throws InvalidInput for a rate or position path without a gain block, a block with a number
   /// of gains other than its kind has, more than max_gains in all, bounds that are not 0 < lower <
   /// upper, a duplicate symbol, more leads than lags in a path, an integral in the pressure or
-  /// compliance path, or a pressure path without a washout (it would oppose the static load).
+  /// compliance path, a pressure path without a washout (it would oppose the static load), or a
+  /// dead zone or freeze that is not alone with one integral in the position path.
   LoopStructure(std::string name, std::vector<LoopBlock> blocks);
 
   /// A sampled linear controller in place of blocks. Inputs tachometer, encoder and, if read,
@@ -91,10 +95,21 @@ class LoopStructure {
   /// friction holds the motor. Apply it before the other additions. @throws InvalidInput if the
   /// structure is not one of the usual PI structures.
   LoopStructure with_position_lag() const;
+  /// One integral instead of those of rate and position loop: that of the position path, which the
+  /// position lag may precede, with a dead zone or frozen within an error. Friction that holds the
+  /// motor then builds up no torque within it, and a steady load leaves no more than it
+  /// (conditional_integral.hpp). Apply either after with_position_lag, before the other additions.
+  /// @throws InvalidInput for a structure that is not usual or has a conditional integral.
+  LoopStructure with_dead_zone() const;
+  LoopStructure with_freeze() const;
+  /// Bounds of a dead zone or freeze a factor of 4 about a width (rad of motor); other structures
+  /// are returned as they are. Tuning takes the middle of the bounds: linear figures do not depend
+  /// on it. @throws InvalidInput for a width that is not positive and finite.
+  LoopStructure with_integral_width(double width) const;
   /// Adds a notch in the rate loop.
   LoopStructure with_notch() const;
-  /// The structure with a short name: PI-0, PI, DPF, LL, FULL, each also with +L (position lag), +N
-  /// (notch) and +C (compliance compensation), in this order.
+  /// The structure with a short name: PI-0, PI, DPF, LL, FULL, each also with +L (position lag), +D
+  /// (dead zone) or +F (freeze), +N (notch) and +C (compliance compensation), in this order.
   /// @throws InvalidInput, with a list of the names, for any other name.
   static LoopStructure named(std::string_view short_name);
   /// Rescales the bounds from the default load, that of the 70-m antenna DSS-14, to another load.
@@ -115,8 +130,11 @@ class LoopStructure {
   const SensorResponse* sensor_response() const;
   /// Number of gains, or of the states of a state space: the measure of its complexity.
   std::size_t parts() const;
-  /// True with an integral in the rate or position path: no static error under a steady torque.
+  /// True with an integral in the rate or position path that takes every error: no static error
+  /// under a steady torque.
   bool has_integral_action() const;
+  /// True with a dead zone or freeze.
+  bool has_conditional_integral() const;
   /// True if the controller reads the motor torque.
   bool feeds_torque_back() const;
   bool has(LoopPath path) const;

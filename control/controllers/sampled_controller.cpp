@@ -57,6 +57,8 @@ Controller prewarped(const Controller& controller, double sample_time) {
     switch (block.kind) {
       case BlockKind::gain:
       case BlockKind::integral:
+      case BlockKind::dead_zone:
+      case BlockKind::freeze:
         break;
       case BlockKind::lag:
       case BlockKind::lead:

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <boresight/control/controllers/usual_structures.hpp>
 
 namespace boresight::control {
@@ -6,8 +8,13 @@ const std::vector<std::string>& usual_structures() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
     for (const auto* base : {"PI-0", "PI", "DPF", "LL", "FULL"}) {
-      for (const auto* added : {"", "+N", "+C", "+N+C", "+L", "+L+N", "+L+C", "+L+N+C"})
-        all.push_back(std::string(base) + added);
+      for (const auto* lag : {"", "+L"}) {
+        for (const auto* condition : {"", "+D", "+F"}) {
+          for (const auto* added : {"", "+N", "+C", "+N+C"}) {
+            all.push_back(fmt::format("{}{}{}{}", base, lag, condition, added));
+          }
+        }
+      }
     }
     return all;
   }();

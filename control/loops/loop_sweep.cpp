@@ -26,6 +26,10 @@ template <bool with_gradients, std::size_t width>
     if (with_gradients) by_gain[0] = {1.0, 0.0};
     return;
   }
+  if (kind == BlockKind::dead_zone || kind == BlockKind::freeze) {
+    if (with_gradients) by_gain[0] = {0.0, 0.0};
+    return;
+  }
   if (kind == BlockKind::notch) {
     const RealPart square = g * g - w * w;
     const ComplexPart above{square, 2.0 * gains[1] * g * w};

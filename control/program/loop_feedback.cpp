@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/conditional_integral.hpp>
 #include <boresight/control/controllers/path_sections.hpp>
 #include <boresight/control/program/feedback_statements.hpp>
 
@@ -71,20 +72,65 @@ class Section {
   std::vector<Expression> b_, a_, states_;
 };
 
+// The integral of a position path with its dead zone or freeze: y = x + s + b f(x), s' = s + 2 b
+// f(x).
+class ConditionalSection {
+ public:
+  ConditionalSection(Builder& builder, const ConditionalIntegral& integral, double sample_time)
+      : freeze_(integral.condition == BlockKind::freeze),
+        width_(builder.parameter("position_integral_width", Type::real, integral.width, "rad",
+                                 freeze_ ? "error within which the position integral holds"
+                                         : "dead zone of the position integral")),
+        half_step_(builder.parameter("position_integral_half_step", Type::real,
+                                     0.5 * integral.corner * sample_time, "",
+                                     "position integral corner times half the sample time")),
+        input_(builder.local("position_integral_input", Type::real, "", "")),
+        state_(builder.state("position_integral_state", Type::real, "rad", "position integral")) {}
+
+  Expression compute(Builder& builder, const Expression& x) const {
+    if (freeze_) {
+      builder.begin_if(absolute(x) < width_);
+      builder.assign(input_, constant(0.0));
+      builder.otherwise();
+      builder.assign(input_, x);
+      builder.end_if();
+    } else {
+      builder.assign(input_, x - limited(x, width_));
+    }
+    return x + (state_ + half_step_ * input_);
+  }
+  // After compute.
+  void advance(Builder& builder) const {
+    builder.assign(state_, state_ + (half_step_ + half_step_) * input_);
+  }
+  // At rest without error.
+  void start(Builder& builder, const Expression& output) const { builder.assign(state_, output); }
+
+ private:
+  bool freeze_;
+  Expression width_, half_step_, input_, state_;
+};
+
 class Path {
  public:
   Path(Builder& builder, const Controller& controller, LoopPath path, double sample_time,
        bool forward) {
-    for (const auto& section : digital_sections(controller, path, sample_time)) {
+    const auto integral = path == LoopPath::position ? conditional_integral(controller)
+                                                     : std::optional<ConditionalIntegral>();
+    if (integral) conditional_.emplace(builder, *integral, sample_time);
+    const Controller linear = integral ? without_conditional_integral(controller) : controller;
+    for (const auto& section : digital_sections(linear, path, sample_time)) {
       sections_.emplace_back(builder, section, forward);
     }
   }
 
   Expression compute(Builder& builder, Expression signal) const {
+    if (conditional_) signal = conditional_->compute(builder, signal);
     for (const auto& section : sections_) signal = section.compute(builder, signal);
     return signal;
   }
   void advance(Builder& builder) const {
+    if (conditional_) conditional_->advance(builder);
     for (const auto& section : sections_) section.advance(builder);
   }
   const Expression& output() const { return sections_.back().output(); }
@@ -96,10 +142,13 @@ class Path {
     for (const Section& section : std::views::reverse(sections_)) {
       output = section.start(builder, output);
     }
-    return output;
+    if (!conditional_) return output;
+    conditional_->start(builder, output);
+    return constant(0.0);
   }
 
  private:
+  std::optional<ConditionalSection> conditional_;
   std::vector<Section> sections_;
 };
 

@@ -62,6 +62,8 @@ void set_idle(const control::LoopBlock& block, const GainMap& target, GainMap& g
       break;
     case BlockKind::gain:
     case BlockKind::washout:
+    case BlockKind::dead_zone:
+    case BlockKind::freeze:
       break;
   }
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/conditional_integral.hpp>
 #include <boresight/control/loops/loop_constraints.hpp>
 #include <boresight/design/problem/goals.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -149,7 +150,9 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
 
 double static_encoder_error(const control::Controller& controller, double demand,
                             double gear_ratio) {
-  return std::abs(demand) / control::static_encoder_gain(controller) / gear_ratio;
+  const double error = std::abs(demand) / control::static_encoder_gain(controller);
+  const auto integral = control::conditional_integral(controller);
+  return (integral ? std::min(error, integral->width) : error) / gear_ratio;
 }
 
 NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,

@@ -26,6 +26,9 @@ struct Standstill {
   /// (pointing_limit).
   std::vector<Edge> edges = {};
   std::optional<double> breakaway_stiffness = std::nullopt;  // N m/rad of motor
+  /// Amplitude (rad of motor) of the oscillation with each friction. A conditional integral counts
+  /// with its describing function there (control::set_linear_equivalent). Empty: as the linear one.
+  std::vector<double> amplitude = {};
 };
 
 /// The constraints of a design. Those per break are in the order of control::loop_breaks.
@@ -111,7 +114,7 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
                                    const Constraints& goals, const MeanWindLoad& mean,
                                    std::vector<NormalisedConstraint>& ratios);
 /// Encoder error (rad at the sky) that a leakage flow (MeanWindLoad::demand) leaves at rest: over
-/// control::static_encoder_gain and the gear ratio.
+/// control::static_encoder_gain and the gear ratio, at most the width of a conditional integral.
 double static_encoder_error(const control::Controller& controller, double demand,
                             double gear_ratio);
 /// The ratio of Constraints::static_encoder_error, to that error. A limit below 1e-12 rad counts as

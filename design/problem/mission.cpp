@@ -46,6 +46,7 @@ Constraints constraints(const Mission& mission) {
   }
   if (goals.standstill) {
     goals.standstill->friction = standstill_friction(mission.antenna);
+    goals.standstill->amplitude = standstill_amplitudes(mission.antenna);
     goals.standstill->edges = encoder_edges(mission.antenna);
     goals.standstill->breakaway_stiffness = breakaway_stiffness(mission.antenna);
   }

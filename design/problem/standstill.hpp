@@ -11,6 +11,8 @@ namespace boresight::design {
 /// Angle at the sky (rad) between two codes of the encoder: rounding to steps q errs by q/sqrt(12)
 /// rms, the encoder's noise. 0 without noise.
 double encoder_step(const plant::Antenna& antenna);
+/// The same from the noise (rad rms).
+double encoder_step(double noise);
 
 /// Friction slopes (N m s/rad) for Standstill: what the friction curve amounts to
 /// (plant::equivalent_friction) in the smallest oscillation that matters, and a third and a sixth
@@ -23,6 +25,11 @@ double encoder_step(const plant::Antenna& antenna);
 /// quantisation decides (limit_cycle_search.hpp).
 /// @throws InvalidInput as plant::linear_plant; NumericalFailure as plant::hydraulic_mode.
 std::vector<double> standstill_friction(const plant::Antenna& antenna);
+
+/// Amplitudes (rad of motor) of these oscillations at that frequency, Standstill::amplitude: those
+/// in which the friction curve amounts to each slope, at most 1e4 times the smallest.
+/// @throws as standstill_friction.
+std::vector<double> standstill_amplitudes(const plant::Antenna& antenna);
 
 /// Linear equivalents of a limit cycle across an edge between two codes of the encoder, by
 /// describing functions. A sine of amplitude A about the edge is read as a square wave of one step

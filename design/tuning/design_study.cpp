@@ -5,6 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/analysis/absolute_stability.hpp>
+#include <boresight/control/controllers/conditional_integral.hpp>
+#include <boresight/control/loops/conditional_loop.hpp>
 #include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
@@ -112,12 +115,17 @@ double control_effort(TrackingProblem problem, const control::Controller& contro
 std::string missed_standstill(const TrackingProblem& problem, const control::Controller& controller,
                               const Standstill& standstill, const Eigen::ArrayXd& frequency) {
   plant::AntennaPlant plant = problem.plant;
-  for (const double friction : standstill.friction) {
+  control::Controller linear = controller;
+  for (std::size_t i = 0; i < standstill.friction.size(); ++i) {
+    const double friction = standstill.friction[i];
     plant.drive.viscous_friction = friction;
-    if (!control::stability(plant, controller, problem.delay, frequency).stable()) {
+    if (!standstill.amplitude.empty()) {
+      control::set_linear_equivalent(controller, standstill.amplitude.at(i), linear);
+    }
+    if (!control::stability(plant, linear, problem.delay, frequency).stable()) {
       return fmt::format("not stable at standstill, with a friction of {:.3g} N.m.s/rad", friction);
     }
-    const auto peaks = control::sensitivity_bounds(plant, controller, problem.delay);
+    const auto peaks = control::sensitivity_bounds(plant, linear, problem.delay);
     const double peak = peaks[static_cast<std::size_t>(control::LoopBreak::valve_command)].upper;
     if (!(peak <= standstill.sensitivity_peak * met)) {
       return fmt::format("Ms at standstill, with a friction of {:.3g} N.m.s/rad: {:.6f} above {:g}",
@@ -125,6 +133,28 @@ std::string missed_standstill(const TrackingProblem& problem, const control::Con
     }
   }
   return {};
+}
+
+// While the integral holds, and for every error in between.
+std::string missed_absolute_stability(const TrackingProblem& problem,
+                                      const control::Controller& controller,
+                                      const Eigen::ArrayXd& frequency) {
+  const auto held = control::without_conditional_integral(controller);
+  if (!control::stability(problem.plant, held, problem.delay, frequency).stable()) {
+    return "not stable while the integral of the position loop holds";
+  }
+  const plant::PointResponse response(problem.plant);
+  const auto proof = control::absolute_stability(
+      [&](double w) {
+        return control::conditional_loop_gain(response(w), w, controller, problem.delay);
+      },
+      frequency);
+  if (proof.proven) return {};
+  return fmt::format(
+      "not proven stable for every error with a dead zone or freeze: Popov's line is passed by "
+      "{:.3g} "
+      "at {:.3g} rad/s",
+      -proof.distance, proof.frequency);
 }
 
 }  // namespace
@@ -174,6 +204,11 @@ Verification verify(const TrackingProblem& problem, const control::Controller& c
   if (goals.standstill) {
     const std::string missed =
         missed_standstill(problem, controller, *goals.standstill, evaluator.response().frequency);
+    if (!missed.empty()) verification.failure = missed;
+  }
+  if (controller.structure.has_conditional_integral()) {
+    const std::string missed =
+        missed_absolute_stability(problem, controller, evaluator.response().frequency);
     if (!missed.empty()) verification.failure = missed;
   }
   if (!(verification.rms_disagreement < 0.005)) {

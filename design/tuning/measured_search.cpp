@@ -3,6 +3,7 @@
 #include <random>
 
 #include <boresight/control/measured/measured_confidence.hpp>
+#include <boresight/design/tuning/controller_search.hpp>
 #include <boresight/design/tuning/measured_search.hpp>
 
 namespace boresight::design {
@@ -29,9 +30,8 @@ ConstrainedProblem search_problem(std::vector<MeasuredMember>& members,
   search.constraints = 1 + members.size() * breaks * max_peaks;
   search.evaluate = [&members, structure, goals](const std::vector<double>& point,
                                                  ConstrainedValues& values) {
-    control::Controller controller{structure, point};
+    const control::Controller controller = controller_at(structure, point);
     const std::size_t size = point.size();
-    for (double& gain : controller.gains) gain = std::exp(gain);
     std::ranges::fill(values.constraints, -1.0);
     std::ranges::fill(values.constraint_gradients, 0.0);
     for (std::size_t m = 0; m < members.size(); ++m) {
@@ -159,9 +159,7 @@ MeasuredMember MeasuredSearch::least_favourable(const control::Controller& contr
 }
 
 control::Controller MeasuredSearch::controller_of(const SearchPoint& point) const {
-  control::Controller controller{structure_, point.point};
-  for (double& gain : controller.gains) gain = std::exp(gain);
-  return controller;
+  return controller_at(structure_, point.point);
 }
 
 }  // namespace boresight::design

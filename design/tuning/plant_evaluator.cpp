@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/control/controllers/conditional_integral.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
@@ -40,15 +41,18 @@ PlantEvaluator::PlantEvaluator(std::string name, const TrackingProblem& problem,
   }
 }
 
-PlantEvaluator PlantEvaluator::at_standstill(TrackingProblem problem, double friction,
+PlantEvaluator PlantEvaluator::at_standstill(TrackingProblem problem, std::size_t place,
                                              const Constraints& goals, const WindTable& wind,
                                              double tolerance) {
+  const Standstill& standstill = goals.standstill.value();
+  const double friction = standstill.friction.at(place);
   problem.plant.drive.viscous_friction = friction;
   Constraints own;
-  own.standstill = goals.standstill.value();
+  own.standstill = standstill;
   PlantEvaluator plant(fmt::format("friction {:.3g} N.m.s/rad", friction), problem, own, wind,
                        tolerance);
   plant.at_standstill_ = true;
+  if (!standstill.amplitude.empty()) plant.amplitude_ = standstill.amplitude.at(place);
   std::array<bool, control::loop_breaks.size()> breaks{};
   breaks[static_cast<std::size_t>(control::LoopBreak::valve_command)] = true;
   plant.evaluator_.look_at(breaks);
@@ -57,7 +61,10 @@ PlantEvaluator PlantEvaluator::at_standstill(TrackingProblem problem, double fri
 
 const PlantEvaluation& PlantEvaluator::evaluate(const control::Controller& controller,
                                                 bool with_gradients) {
-  plant_evaluation_.evaluation = evaluator_.evaluate(controller, with_gradients);
+  const bool conditional = amplitude_ > 0.0 && controller.structure.has_conditional_integral();
+  if (conditional) control::set_linear_equivalent(controller, amplitude_, equivalent_);
+  plant_evaluation_.evaluation =
+      evaluator_.evaluate(conditional ? equivalent_ : controller, with_gradients);
   plant_evaluation_.stable = plant_evaluation_.evaluation.stable();
   plant_evaluation_.ratios.clear();
   if (!plant_evaluation_.stable) return plant_evaluation_;
@@ -85,15 +92,21 @@ const PlantEvaluation& PlantEvaluator::evaluate(const control::Controller& contr
 }
 
 bool PlantEvaluator::stable_by_eigenvalues(const control::Controller& controller) const {
-  return control::stability(plant_, controller, delay_, frequency_).stable();
+  const auto is_stable = [&](const control::Controller& linear) {
+    return control::stability(plant_, linear, delay_, frequency_).stable();
+  };
+  if (!controller.structure.has_conditional_integral()) return is_stable(controller);
+  control::Controller linear = controller;
+  if (amplitude_ > 0.0) control::set_linear_equivalent(controller, amplitude_, linear);
+  return is_stable(linear) && is_stable(control::without_conditional_integral(controller));
 }
 
 void append_standstill(const TrackingProblem& problem, const Constraints& goals,
                        const WindTable& wind, std::vector<PlantEvaluator>& plants,
                        double tolerance) {
   if (!goals.standstill) return;
-  for (const double friction : goals.standstill->friction) {
-    plants.push_back(PlantEvaluator::at_standstill(problem, friction, goals, wind, tolerance));
+  for (std::size_t place = 0; place < goals.standstill->friction.size(); ++place) {
+    plants.push_back(PlantEvaluator::at_standstill(problem, place, goals, wind, tolerance));
   }
 }
 

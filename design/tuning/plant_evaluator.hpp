@@ -28,9 +28,9 @@ class PlantEvaluator {
   /// make_adaptive_evaluator.
   PlantEvaluator(std::string name, const TrackingProblem& problem, const Constraints& goals,
                  const WindTable& wind, double tolerance = control::LoopQuadrature{}.tolerance);
-  /// For the problem's own plant with one friction of Constraints::standstill, which must be given.
+  /// For the problem's own plant with one friction of Constraints::standstill, by its place there.
   /// Its only constraint is that of standstill.
-  static PlantEvaluator at_standstill(TrackingProblem problem, double friction,
+  static PlantEvaluator at_standstill(TrackingProblem problem, std::size_t place,
                                       const Constraints& goals, const WindTable& wind,
                                       double tolerance = control::LoopQuadrature{}.tolerance);
 
@@ -38,7 +38,8 @@ class PlantEvaluator {
   /// control::validate.
   const PlantEvaluation& evaluate(const control::Controller& controller, bool with_gradients);
 
-  /// Stability by the eigenvalues of the closed loop.
+  /// Stability by the eigenvalues of the closed loop; of a conditional integral, while it holds
+  /// too.
   bool stable_by_eigenvalues(const control::Controller& controller) const;
 
   const std::string& name() const { return name_; }
@@ -53,6 +54,7 @@ class PlantEvaluator {
   double gear_ratio_;
   Constraints goals_;
   bool at_standstill_ = false;
+  double amplitude_ = 0.0;  // of Standstill
   MeanWindLoad mean_;
   Eigen::ArrayXd frequency_;  // rad/s, for margins and the eigenvalues' residue
   control::LoopEvaluator evaluator_;
@@ -60,6 +62,7 @@ class PlantEvaluator {
   std::vector<control::LoopEvaluator> gusts_;
   std::vector<control::LoopChannels> channels_;  // where margins are asked for
   PlantEvaluation plant_evaluation_;
+  control::Controller equivalent_;  // of a conditional integral
 };
 
 /// Appends one evaluator at_standstill for each friction of Constraints::standstill, if given.

@@ -38,6 +38,8 @@ double neutral_gain(const LoopBlock& block, std::size_t k) {
       // A lag where the other has none, a compliance's corner.
       return block.path == LoopPath::compliance ? middle(gain.lower, gain.upper) : gain.upper;
     case BlockKind::washout:
+    case BlockKind::dead_zone:
+    case BlockKind::freeze:
       break;
     case BlockKind::notch:
       if (k == 0) break;

@@ -9,8 +9,10 @@
 
 #include <boresight/control/controllers/usual_structures.hpp>
 #include <boresight/design/problem/mission.hpp>
+#include <boresight/design/problem/standstill.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_sections.hpp>
+#include <boresight/io/case/case_sensors.hpp>
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
@@ -24,8 +26,9 @@ using control::LoopPath;
 
 constexpr std::array paths{LoopPath::rate, LoopPath::pressure, LoopPath::position,
                            LoopPath::compliance};
-constexpr std::array kinds{BlockKind::gain, BlockKind::integral, BlockKind::lag,
-                           BlockKind::lead, BlockKind::washout,  BlockKind::notch};
+constexpr std::array kinds{BlockKind::gain,      BlockKind::integral, BlockKind::lag,
+                           BlockKind::lead,      BlockKind::washout,  BlockKind::notch,
+                           BlockKind::dead_zone, BlockKind::freeze};
 
 // Out of a closed list of values by their names.
 template <typename Value, std::size_t count>
@@ -54,6 +57,10 @@ std::vector<GainWords> words_of(BlockKind kind) {
       return {{"corner", "lead corner", "wz"}};
     case BlockKind::washout:
       return {{"corner", "washout corner", "wd"}};
+    case BlockKind::dead_zone:
+      return {{"width", "integral dead zone", "dz"}};
+    case BlockKind::freeze:
+      return {{"width", "integral freeze", "fz"}};
     case BlockKind::notch:
       break;
   }
@@ -209,12 +216,14 @@ std::optional<RangeEntry> read_range(TableReader& table, const char* key, Kind k
 const std::vector<control::LoopBlock>& all_blocks() {
   static const std::vector<control::LoopBlock> blocks = [] {
     std::vector<control::LoopBlock> all = control::LoopStructure::named("FULL+N+C").blocks();
-    const auto lag = control::LoopStructure::named("FULL+L");
-    for (const auto& block : lag.blocks()) {
-      const bool known = std::ranges::any_of(all, [&](const control::LoopBlock& one) {
-        return one.gains.front().symbol == block.gains.front().symbol;
-      });
-      if (!known) all.push_back(block);
+    for (const char* name : {"FULL+L+D", "FULL+F"}) {
+      const auto structure = control::LoopStructure::named(name);
+      for (const auto& block : structure.blocks()) {
+        const bool known = std::ranges::any_of(all, [&](const control::LoopBlock& one) {
+          return one.gains.front().symbol == block.gains.front().symbol;
+        });
+        if (!known) all.push_back(block);
+      }
     }
     return all;
   }();
@@ -276,6 +285,7 @@ GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols) {
 
 Kind gain_kind(control::LoopPath path, control::BlockKind kind, std::size_t index) {
   if (kind == BlockKind::notch && index > 0) return Kind::number;
+  if (kind == BlockKind::dead_zone || kind == BlockKind::freeze) return Kind::angle;
   if (kind != BlockKind::gain) return Kind::bandwidth_frequency;
   switch (path) {
     case LoopPath::rate:
@@ -297,16 +307,18 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
     names.push_back(in_quotes(entry.structure.name()));
   }
   if (is_usual(name)) {
-    return bounded(control::LoopStructure::named(name).with_bounds_for(driven_load(antenna)),
-                   antenna.tuning->bounds);
+    auto usual = control::LoopStructure::named(name).with_bounds_for(driven_load(antenna));
+    const double step = design::encoder_step(antenna.sensors->encoder_noise.value);
+    if (step > 0.0) usual = usual.with_integral_width(step * gear_ratio(antenna));
+    return bounded(usual, antenna.tuning->bounds);
   }
   std::vector<std::string_view> known(control::usual_structures().begin(),
                                       control::usual_structures().end());
   for (const auto& entry : antenna.loops) known.push_back(entry.structure.name());
   throw InvalidInput(
       fmt::format("expected {}PI-0, PI, DPF, LL or FULL, with +L (position lag instead of "
-                  "integrals), +N (notch) and +C (compliance compensation) behind it as wanted, "
-                  "found {}{}",
+                  "integrals), +D or +F (dead zone or freeze of the integral), +N (notch) and +C "
+                  "(compliance compensation) behind it as wanted, found {}{}",
                   names.empty() ? "" : fmt::format("{}, ", fmt::join(names, ", ")), in_quotes(name),
                   did_you_mean(name, known)));
 }
@@ -318,7 +330,9 @@ void check_structure(const Case& antenna, const std::string& name) {
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna) {
   std::vector<control::LoopStructure> usual;
   for (const auto& name : control::usual_structures()) {
-    if (!name.starts_with("PI-0")) usual.push_back(loop_structure(antenna, name));
+    if (name.starts_with("PI-0")) continue;
+    auto structure = loop_structure(antenna, name);
+    if (!structure.has_conditional_integral()) usual.push_back(std::move(structure));
   }
   return usual;
 }

@@ -57,14 +57,14 @@ struct TuningEntry {
 };
 
 /// A loop structure by the name of one of the case's own, else as control::LoopStructure::named.
-/// Its bounds are for the case's antenna (LoopStructure::with_bounds_for, driven_load), except
-/// those in the case's [[tuning.bound]].
+/// Its bounds are for the case's antenna (LoopStructure::with_bounds_for, driven_load; a dead zone
+/// or freeze about one step of the encoder), except those in the case's [[tuning.bound]].
 /// @throws InvalidInput listing them
 control::LoopStructure loop_structure(const Case& antenna, const std::string& name);
 /// Accepts a name that a study may be asked for: a loop structure's or design::state_space_name.
 /// @throws InvalidInput for others, as loop_structure.
 void check_structure(const Case& antenna, const std::string& name);
-/// The usual structures with lag, with the same bounds.
+/// The usual structures with lag and without a conditional integral, with the same bounds.
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna);
 
 }  // namespace boresight::io

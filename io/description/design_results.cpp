@@ -20,6 +20,7 @@ struct DesignBreak {
 
 KeyUnit gain_unit(const std::string& unit) {
   static const std::map<std::string, std::string_view> suffixes{{"1", "1"},
+                                                                {"rad", "rad"},
                                                                 {"1/s", "per_s"},
                                                                 {"rad/s", "rad_per_s"},
                                                                 {"rad/(s.N.m)", "rad_per_s_N_m"},
@@ -46,6 +47,8 @@ void describe_usual_gains(Visitor& v) {
     gain("pressure_feedback_gain", {.suffix = "rad_per_s_N_m"}, "kT; of pressure feedback");
     gain("pressure_washout_corner", corner, "wd; of pressure feedback");
     gain("position_integral_corner", corner, "wip");
+    gain("position_integral_dead_zone", {.suffix = "rad"}, "dzp; of +D");
+    gain("position_integral_freeze", {.suffix = "rad"}, "fzp; of +F");
     gain("compliance", {.suffix = "rad_per_N_m"}, "cs; of compliance compensation");
     gain("compliance_corner", corner, "wcs; of compliance compensation");
   });
@@ -62,7 +65,7 @@ void describe_gains(Visitor& v, const control::Controller& controller) {
   };
   v.numbers_by_name(
       "^(rate|pressure|position|compliance|notch)_[a-z0-9_]+_"
-      "(1|rad_per_s|per_s|rad_per_s_N_m|rad_per_N_m)$",
+      "(1|rad|rad_per_s|per_s|rad_per_s_N_m|rad_per_N_m)$",
       "A gain of a [[loop]] of the case.", [&] {
         if (v.by_example()) {
           describe_usual_gains(v);

@@ -13,9 +13,11 @@
 #include <boresight/io/case/case_goals.hpp>
 #include <boresight/io/case/case_mechanics.hpp>
 #include <boresight/io/case/case_pointing.hpp>
+#include <boresight/io/case/case_sensors.hpp>
 #include <boresight/io/case/case_structure.hpp>
 #include <boresight/io/case/case_tuning.hpp>
 #include <boresight/io/case/case_wind.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/mission_of.hpp>
 #include <boresight/io/case/present_gains.hpp>
 
@@ -71,33 +73,66 @@ TEST(CaseTuning, ReadsAStructureOfTheEngineersOwn) {
   EXPECT_EQ(antenna.tuning->starts, 4);
 }
 
+const char* first_key(control::BlockKind kind) {
+  switch (kind) {
+    case control::BlockKind::notch:
+      return "frequency";
+    case control::BlockKind::gain:
+      return "gain";
+    case control::BlockKind::dead_zone:
+    case control::BlockKind::freeze:
+      return "width";
+    default:
+      return "corner";
+  }
+}
+
 // A structure stated block by block is the usual one of the same blocks.
 TEST(CaseTuning, NamesGainsAsTheUsualStructuresDo) {
-  const auto usual = control::LoopStructure::named("FULL+N+C");
-  std::string text = "[[loop]]\nname = \"mine\"\n";
-  for (const auto& block : usual.blocks()) {
-    text += "[[loop.block]]\npath = '" + std::string(to_string(block.path)) + "'\nkind = '" +
-            std::string(to_string(block.kind)) + "'\n";
-    const bool notch = block.kind == control::BlockKind::notch;
-    const bool gain = block.kind == control::BlockKind::gain;
-    const char* keys[] = {notch  ? "frequency"
-                          : gain ? "gain"
-                                 : "corner",
-                          "zero_damping", "pole_damping"};
-    for (std::size_t i = 0; i < block.gains.size(); ++i) {
-      const io::Kind kind = io::gain_kind(block.path, block.kind, i);
-      const std::string unit =
-          kind == io::Kind::number ? "" : " " + std::string(io::describe(kind).si_unit);
-      text += std::string(keys[i]) + " = { lower = '1" + unit + "', upper = '2" + unit + "' }\n";
+  for (const char* name : {"FULL+N+C", "LL+L+D", "PI+F"}) {
+    const auto usual = control::LoopStructure::named(name);
+    std::string text = "[[loop]]\nname = \"mine\"\n";
+    for (const auto& block : usual.blocks()) {
+      text += "[[loop.block]]\npath = '" + std::string(to_string(block.path)) + "'\nkind = '" +
+              std::string(to_string(block.kind)) + "'\n";
+      const char* keys[] = {first_key(block.kind), "zero_damping", "pole_damping"};
+      for (std::size_t i = 0; i < block.gains.size(); ++i) {
+        const io::Kind kind = io::gain_kind(block.path, block.kind, i);
+        const std::string unit =
+            kind == io::Kind::number ? "" : " " + std::string(io::describe(kind).si_unit);
+        text += std::string(keys[i]) + " = { lower = '1" + unit + "', upper = '2" + unit + "' }\n";
+      }
+    }
+    const io::Case antenna = with(text);
+    const auto& mine = antenna.loops[0].structure.gains();
+    ASSERT_EQ(mine.size(), usual.gains().size());
+    for (std::size_t i = 0; i < mine.size(); ++i) {
+      EXPECT_EQ(mine[i].symbol, usual.gains()[i].symbol);
+      EXPECT_EQ(mine[i].name, usual.gains()[i].name);
+      EXPECT_EQ(mine[i].unit, usual.gains()[i].unit);
     }
   }
-  const io::Case antenna = with(text);
-  const auto& mine = antenna.loops[0].structure.gains();
-  ASSERT_EQ(mine.size(), usual.gains().size());
-  for (std::size_t i = 0; i < mine.size(); ++i) {
-    EXPECT_EQ(mine[i].symbol, usual.gains()[i].symbol);
-    EXPECT_EQ(mine[i].name, usual.gains()[i].name);
-    EXPECT_EQ(mine[i].unit, usual.gains()[i].unit);
+}
+
+// About one step of the encoder at the motor, whose rounding is its noise.
+TEST(CaseTuning, WidthsOfConditionalIntegralsFollowTheEncoder) {
+  const io::Case antenna = with("");
+  const double step =
+      std::sqrt(12.0) * antenna.sensors->encoder_noise.value * io::gear_ratio(antenna);
+  for (const char* name : {"DPF+D", "FULL+L+F+C"}) {
+    const auto structure = io::loop_structure(antenna, name);
+    for (const auto& gain : structure.gains()) {
+      if (gain.symbol != "dzp" && gain.symbol != "fzp") continue;
+      EXPECT_NEAR(std::sqrt(gain.lower * gain.upper), step, 1e-12 * step);
+    }
+  }
+  const auto stated = io::loop_structure(
+      with("[[tuning.bound]]\ngain = 'fzp'\nlower = '0.01 deg'\nupper = '0.04 deg'\n"), "PI+F");
+  EXPECT_NEAR(std::sqrt(stated.gains().back().lower * stated.gains().back().upper),
+              0.02 * std::numbers::pi / 180.0, 1e-12);
+  // No tuning starts from them.
+  for (const auto& usual : io::usual_structures_with_lag(antenna)) {
+    EXPECT_FALSE(usual.has_conditional_integral());
   }
 }
 
@@ -227,7 +262,8 @@ TEST(CaseTuning, TakesCasesWithoutAnyOfIt) {
 TEST(CaseTuning, RefusesStructuresThatAreNone) {
   EXPECT_THAT(refusal("kind = \"integral\"", "kind = \"integrator\""),
               HasSubstr("loop[0].block[1].kind: expected one of 'gain', 'integral', 'lag', 'lead', "
-                        "'washout', 'notch', found 'integrator' (did you mean 'integral'?)"));
+                        "'washout', 'notch', 'dead_zone', 'freeze', found 'integrator' (did you "
+                        "mean 'integral'?)"));
   EXPECT_THAT(refusal("upper = \"30\"\npresent", "upper = \"0.001\"\npresent"),
               HasSubstr("loop[0].block[0].gain.upper: expected more than the lower bound '0.01', "
                         "found '0.001'"));
@@ -245,8 +281,9 @@ TEST(CaseTuning, RefusesStructuresThatAreNone) {
                 "path, found 0"));
   EXPECT_THAT(refusal("[\"PI\", ", "[\"PID\", "),
               HasSubstr("tuning.structures: expected 'PI with a second lag', PI-0, PI, DPF, LL or "
-                        "FULL, with +L (position lag instead of integrals), +N (notch) and +C "
-                        "(compliance compensation) behind it as wanted, found 'PID'"));
+                        "FULL, with +L (position lag instead of integrals), +D or +F (dead zone or "
+                        "freeze of the integral), +N (notch) and +C (compliance compensation) "
+                        "behind it as wanted, found 'PID'"));
   EXPECT_THAT(refusal("kT = \"0.0002 rad/(s.N.m)\"", "kT = \"0.0002 rad/s\""),
               HasSubstr("gains.kT: expected a rate per torque"));
   EXPECT_THAT(refusal("wcs = \"1 rad/s\"\n", ""), HasSubstr("gains.wcs: expected"));

@@ -15,8 +15,8 @@ TEST(UsualStructures, HaveEachANameOfTheirOwn) {
     EXPECT_EQ(short_name(structure), name);
     full.insert(structure.name());
   }
-  EXPECT_EQ(full.size(), 40U);
-  EXPECT_EQ(usual_structures().size(), 40U);
+  EXPECT_EQ(full.size(), 120U);
+  EXPECT_EQ(usual_structures().size(), 120U);
 }
 
 TEST(ShortName, IsTheStructuresOwnWhereItIsNotUsual) {

@@ -181,7 +181,8 @@ TEST_P(OfController, StartsWithValveCommandInForce) {
 
 INSTANTIATE_TEST_SUITE_P(Structures, OfController,
                          testing::Values("PI-0", "PI", "DPF", "LL", "FULL", "LL+L", "PI+N",
-                                         "FULL+L+C", "FULL+N+C", "SS"),
+                                         "FULL+L+C", "FULL+N+C", "FULL+D", "LL+F+N", "DPF+L+D+C",
+                                         "SS"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::erase_if(name, [](char c) { return c == '+' || c == '-'; });

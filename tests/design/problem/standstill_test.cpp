@@ -31,6 +31,22 @@ TEST(StandstillFriction, IsThatOfHalfAnEncoderStep) {
   EXPECT_NEAR(slopes[0], slopes[2] / 6.0, 1e-12 * slopes[2]);
 }
 
+TEST(StandstillAmplitudes, AreThoseInWhichFrictionAmountsToEachSlope) {
+  const plant::Antenna antenna = plant::demo_antenna();
+  const auto slopes = standstill_friction(antenna);
+  const auto amplitudes = standstill_amplitudes(antenna);
+  ASSERT_EQ(amplitudes.size(), slopes.size());
+  const double frequency =
+      two_pi / 6.0 * plant::hydraulic_mode(plant::plant_modes(linear_plant(antenna))).frequency;
+  for (std::size_t i = 0; i < slopes.size(); ++i) {
+    EXPECT_NEAR(plant::equivalent_friction(antenna.friction_curve, amplitudes[i] * frequency),
+                slopes[i], 1e-9 * slopes[i]);
+  }
+  EXPECT_NEAR(amplitudes[2], std::sqrt(3.0) * gear_ratio(antenna) * antenna.sensors.encoder_noise,
+              1e-9 * amplitudes[2]);
+  EXPECT_GT(amplitudes[0], 6.0 * amplitudes[2]);
+}
+
 // A sine of amplitude A is read as a square wave of +-q/2, whose fundamental is 2 q/pi.
 TEST(EncoderEdges, AreDescribingFunctionsOfAQuarterOfAStep) {
   const plant::Antenna antenna = plant::demo_antenna();

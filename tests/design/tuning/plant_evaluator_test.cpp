@@ -5,6 +5,7 @@
 
 #include "design/reference_problem.hpp"
 #include "lag_loops.hpp"
+#include <boresight/control/controllers/conditional_integral.hpp>
 #include <boresight/control/loops/closed_loop.hpp>
 #include <boresight/control/loops/sensitivity_bounds.hpp>
 #include <boresight/design/tuning/design_study.hpp>
@@ -20,6 +21,7 @@ using control::LoopBreak;
 using control::LoopStructure;
 
 constexpr double friction = 300.0;
+constexpr std::size_t hardest = 2;  // its place among those of standing()
 constexpr auto valve = static_cast<std::size_t>(LoopBreak::valve_command);
 
 Constraints standing() {
@@ -38,7 +40,7 @@ TEST(PlantEvaluator, HasThePeakAtStandstillOfAnIndependentBound) {
   const TrackingProblem problem = reference::tracking_problem();
   const Controller controller = reference::cautious_gains();
   const WindTable wind(problem);
-  auto plant = PlantEvaluator::at_standstill(problem, friction, standing(), wind);
+  auto plant = PlantEvaluator::at_standstill(problem, hardest, standing(), wind);
   EXPECT_TRUE(plant.is_at_standstill());
   const PlantEvaluation& found = plant.evaluate(controller, false);
   ASSERT_TRUE(found.stable);
@@ -53,7 +55,7 @@ TEST(PlantEvaluator, HasTheGradientOfThePeakAtStandstill) {
   const TrackingProblem problem = reference::tracking_problem();
   Controller controller = reference::cautious_gains();
   const WindTable wind(problem);
-  auto plant = PlantEvaluator::at_standstill(problem, friction, standing(), wind);
+  auto plant = PlantEvaluator::at_standstill(problem, hardest, standing(), wind);
   const auto gradient = plant.evaluate(controller, true).ratios.front().log_gradient;
   for (std::size_t k = 0; k < controller.gains.size(); ++k) {
     const double gain = controller.gains[k], step = 1e-4;
@@ -103,6 +105,90 @@ TEST(Standstill, OfABadLimitIsRefused) {
   goals = standing();
   goals.standstill->friction = {0.0};
   EXPECT_THROW(validate(goals), InvalidInput);
+}
+
+// Leaky loops with a slow integral behind a dead zone.
+Controller conditional(double corner) {
+  Controller controller{LoopStructure::named("PI+L+D"), {}};
+  for (const auto& gain : controller.structure.gains()) {
+    controller.gains.push_back(gain.symbol == "kr"    ? 0.3
+                               : gain.symbol == "wp"  ? 10.0
+                               : gain.symbol == "kp"  ? 0.6
+                               : gain.symbol == "wip" ? corner
+                               : gain.symbol == "dzp" ? 0.2
+                               : gain.symbol == "wpp" ? 0.5
+                                                      : 2.0);
+  }
+  return controller;
+}
+
+// The integral counts with what its describing function leaves of it at that friction's amplitude.
+TEST(Standstill, TakesAConditionalIntegralByItsDescribingFunction) {
+  const TrackingProblem problem = reference::tracking_problem();
+  Constraints goals = standing();
+  goals.standstill->amplitude = {1.0, 0.5, 0.1};
+  const WindTable wind(problem);
+  const Controller controller = conditional(0.2);
+  std::vector<double> peaks;
+  for (std::size_t place = 0; place < 3; ++place) {
+    auto plant = PlantEvaluator::at_standstill(problem, place, goals, wind);
+    const auto& found = plant.evaluate(controller, true);
+    ASSERT_TRUE(found.stable);
+    peaks.push_back(3.0 * found.worst_ratio());
+    Controller equivalent;
+    control::set_linear_equivalent(controller, goals.standstill->amplitude[place], equivalent);
+    const auto expected = control::sensitivity_bounds(
+        at_standstill(problem, goals.standstill->friction[place]), equivalent, problem.delay);
+    EXPECT_NEAR(peaks.back(), expected[valve].upper, 1e-6 * peaks.back()) << place;
+    EXPECT_TRUE(plant.stable_by_eigenvalues(controller));
+  }
+  goals.standstill->amplitude.clear();
+  auto linear = PlantEvaluator::at_standstill(problem, hardest, goals, wind);
+  EXPECT_GT(3.0 * linear.evaluate(controller, false).worst_ratio(), 1.01 * peaks[hardest]);
+}
+
+// A dead zone hides nothing: with an integral so fast that the linear loop is unstable, the loop is
+// stable as long as errors are small, and refused all the same.
+TEST(Verification, RefusesADeadZoneThatHidesAnUnstableLoop) {
+  const TrackingProblem problem = reference::tracking_problem();
+  Constraints goals;
+  goals.sensitivity_peak = {3.0, 3.0, 3.0};
+  goals.control_effort = 10.0;
+  ASSERT_EQ(verify(problem, control::without_conditional_integral(conditional(1.0)), goals).failure,
+            "");
+  EXPECT_EQ(verify(problem, conditional(0.01), goals).failure, "");
+  const auto hidden = verify(problem, conditional(20.0), goals);
+  EXPECT_FALSE(hidden.passed);
+  EXPECT_FALSE(hidden.stability.stable());
+  EXPECT_EQ(assess(problem, conditional(20.0), goals).tuning.status, TuningStatus::unstable);
+}
+
+TEST(StaticEncoderError, IsAtMostTheWidthOfAConditionalIntegral) {
+  const TrackingProblem problem = reference::tracking_problem();
+  Controller controller = conditional(0.02);
+  const double held =
+      static_encoder_error(problem, control::without_conditional_integral(controller));
+  EXPECT_GT(held, 0.0);
+  std::size_t k = 0;
+  while (controller.structure.gains().at(k).symbol != "dzp") ++k;
+  for (const double factor : {0.5, 2.0}) {
+    controller.gains[k] = factor * held * problem.gear_ratio;
+    EXPECT_NEAR(static_encoder_error(problem, controller), std::min(1.0, factor) * held,
+                1e-12 * held);
+  }
+}
+
+// Linear figures do not depend on the width: tuning takes the middle of its bounds.
+TEST(Tune, TakesTheMiddleOfTheBoundsOfADeadZone) {
+  const TrackingProblem problem = reference::tracking_problem();
+  TuningOptions options;
+  options.starts = 3;
+  const auto structure = LoopStructure::named("PI+D").with_integral_width(0.07);
+  const auto tuned = tune(problem, structure, {}, options);
+  ASSERT_EQ(tuned.status, TuningStatus::optimal);
+  EXPECT_DOUBLE_EQ(control::gain(tuned.controller, "dzp"), 0.07);
+  for (const auto& bound : tuned.limiting_bounds)
+    EXPECT_EQ(bound.gain.find("dead zone"), std::string::npos);
 }
 
 Constraints within(double static_encoder_error) {

@@ -278,7 +278,7 @@ TEST_P(OfStructure, SinglePrecisionKeepsThePointingError) {
 
 INSTANTIATE_TEST_SUITE_P(CCode, OfStructure,
                          testing::Values("PI-0", "PI", "DPF", "LL", "FULL", "LL+L", "FULL+N",
-                                         "FULL+L+C", "SS", "LQG"),
+                                         "FULL+L+C", "FULL+D", "LL+L+F", "FULL+L+D+C", "SS", "LQG"),
                          [](const auto& parameter) {
                            std::string name = parameter.param;
                            std::erase_if(name, [](char c) { return c == '+' || c == '-'; });

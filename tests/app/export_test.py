@@ -25,6 +25,9 @@ GAINS = {
     "FULL+L+C": 'structure = "FULL+L+C"\nkr = "1.97"\nwz = "7.5 rad/s"\nwp = "51 rad/s"\n'
                 'kT = "0.5 rad/(s.N.m)"\nwd = "60 rad/s"\nkp = "5.8 1/s"\nwpp = "1.7 rad/s"\n'
                 'wzp = "11 rad/s"\ncs = "0.0108 rad/(N.m)"\nwcs = "0.235 rad/s"\n',
+    "FULL+L+F": 'structure = "FULL+L+F"\nkr = "1.0"\nwz = "9 rad/s"\nwp = "60 rad/s"\n'
+                'kT = "0.3 rad/(s.N.m)"\nwd = "60 rad/s"\nkp = "0.8 1/s"\nwip = "0.1 rad/s"\n'
+                'fzp = "5 deg"\nwpp = "1 rad/s"\nwzp = "8 rad/s"\n',
 }
 COMPUTER = '''
 [computer]

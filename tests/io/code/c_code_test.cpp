@@ -123,9 +123,9 @@ const Antenna& antenna() {
 control::Controller loops(const std::string& name) {
   control::Controller controller{control::LoopStructure::named(name), {}};
   const std::map<std::string, double> gains{
-      {"kr", 0.8},   {"wi", 0.3},  {"wz", 7.0},   {"wp", 40.0}, {"kT", 0.1},
-      {"wd", 30.0},  {"kp", 0.4},  {"wip", 0.05}, {"wpp", 1.0}, {"wzp", 10.0},
-      {"cs", 0.004}, {"wcs", 0.3}, {"wn", 12.0},  {"zz", 0.2},  {"zp", 0.7}};
+      {"kr", 0.8},  {"wi", 0.3},   {"wz", 7.0},  {"wp", 40.0},  {"kT", 0.1},   {"wd", 30.0},
+      {"kp", 0.4},  {"wip", 0.05}, {"wpp", 1.0}, {"wzp", 10.0}, {"cs", 0.004}, {"wcs", 0.3},
+      {"wn", 12.0}, {"zz", 0.2},   {"zp", 0.7},  {"dzp", 0.03}, {"fzp", 0.1}};
   for (const auto& gain : controller.structure.gains()) {
     controller.gains.push_back(gains.at(gain.symbol));
   }

@@ -46,6 +46,8 @@ struct DriveRecord {
   double motor_rate_limit = std::numeric_limits<double>::infinity();
   std::optional<Signal> rate_command;   // rad/s of motor
   std::optional<Signal> valve_command;  // rad/s of no-load motor speed, by the stated scale
+  /// rad at the sky, continuous through full turns. No method but channel_consistency uses it.
+  std::optional<Signal> encoder;
   Eigen::Index samples() const { return motor_rate.values.size(); }
 };
 
@@ -84,6 +86,8 @@ struct DriveKnowledge {
   double return_pressure = 0.0;  // Pa
   /// Motor speed at which the antenna tracks a star, rad/s.
   double tracking_rate = 0.0;
+  /// Motor turns per turn of the antenna; 0: not known.
+  double gear_ratio = 0.0;
 };
 
 /// A test campaign: records and what is known beside them.

@@ -88,7 +88,7 @@ class Cleaner {
       throw InvalidInput(fmt::format("expected as many samples of {} as of the time, {}, found {}",
                                      channel->name, raw_.time.size(), channel->values.size()));
     }
-    for (auto* command : {&raw_.rate_command, &raw_.valve_command}) {
+    for (auto* command : {&raw_.rate_command, &raw_.valve_command, &raw_.encoder}) {
       if (!*command || (*command)->values.size() == raw_.time.size()) continue;
       add(DefectKind::different_length, DefectHandling::left_out, (*command)->name,
           (*command)->values.size(),
@@ -104,6 +104,7 @@ class Cleaner {
     for (auto* command : {&raw_.rate_command, &raw_.valve_command}) {
       if (*command) add(missing_samples(**command, raw_.time, bridge));
     }
+    if (raw_.encoder) add(missing_samples(*raw_.encoder, raw_.time, false));
   }
 
   // A rate command stands still where the valve is driven past an open rate loop.
@@ -116,6 +117,7 @@ class Cleaner {
       command.reset();
     };
     leave_out(raw_.valve_command);
+    leave_out(raw_.encoder);
     if (raw_.rate_loop_closed) leave_out(raw_.rate_command);
   }
 
@@ -151,6 +153,12 @@ class Cleaner {
     return finite_median(channel.values) < -0.1 * largest;
   }
 
+  // Clipping is for extremes: beyond the range most of the time is another unit or scale.
+  bool is_beyond_range(const RawChannel& channel) const {
+    const double limit = (1.0 - options_.limit_tolerance) * channel.upper_limit;
+    return 2 * (channel.values.array() >= limit).count() > channel.values.size();
+  }
+
   void find_dead_pressures() {
     const double usual = usual_spread();
     const auto& exchanged = options_.exchanged_motors;
@@ -168,6 +176,10 @@ class Cleaner {
           because(DefectKind::dead_channel, "more than half of it is missing", "");
         } else if (spread(channel.values) < options_.dead_fraction * usual) {
           because(DefectKind::dead_channel, "hardly moves while others do", "");
+        } else if (is_beyond_range(channel)) {
+          because(DefectKind::wrong_scale,
+                  "more than half of it is at or beyond the transducer's range",
+                  "; check its unit and scale");
         } else if (is_reversed(channel)) {
           because(DefectKind::reversed_sign, "a pressure below zero most of the time",
                   "; if its sign is turned, record_columns.reversed turns it back");
@@ -315,6 +327,7 @@ class Cleaner {
     record.motor_rate_limit = limit_;
     if (raw_.rate_command) record.rate_command = on_time_base(base, raw_.rate_command->values);
     if (raw_.valve_command) record.valve_command = on_time_base(base, raw_.valve_command->values);
+    if (raw_.encoder) record.encoder = on_time_base(base, raw_.encoder->values);
     result_.record = std::move(record);
     if (raw_.test == TestKind::slosh) mask_replaced(result_);
   }

@@ -313,6 +313,7 @@ Document document_of(const io::CampaignSection& section) {
   text += advice_part(section);
   text += fit_part(section);
   text += method_notes_part(section);
+  text += document_of(section.channels);
   return text + document_of(section.notes);
 }
 

@@ -17,6 +17,8 @@ std::string to_text(const Report& report);
 Document document_of(const io::CampaignSection& section);
 /// The records: tests, defects with place and count, everything that was taken for granted.
 Document document_of(const io::CampaignNotes& notes);
+/// What each channel must be for the others to be right.
+Document document_of(const std::vector<identification::ChannelCheck>& channels);
 Document document_of(const IdentificationSection& section);
 /// Every finding by kind, numbered, then the summary.
 Document document_of(const AuditReport& report);

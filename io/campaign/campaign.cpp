@@ -177,7 +177,8 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
         "{:.4f} times the oil stiffness found here",
         1.0 / (knowledge.torque_efficiency.value * knowledge.volumetric_efficiency.value)));
   }
-  knowledge.tracking_rate = antenna.drive->tracking_rate.value * gear_ratio(antenna);
+  knowledge.gear_ratio = gear_ratio(antenna);
+  knowledge.tracking_rate = antenna.drive->tracking_rate.value * knowledge.gear_ratio;
   return knowledge;
 }
 

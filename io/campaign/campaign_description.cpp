@@ -236,6 +236,34 @@ void describe_suspicion(Visitor& v, const ChannelSuspicion& one) {
   v.text("explanation", one.explanation, "Of the first.");
 }
 
+void describe_channel(Visitor& v, const identification::ChannelCheck& one) {
+  using Channel = identification::ChannelCheck::Channel;
+  v.text("channel", one.name, "As the files call it; of a torque the two pressures.");
+  v.word("kind",
+         one.channel == Channel::tachometer ? "tachometer"
+         : one.channel == Channel::inlet    ? "inlet pressure"
+         : one.channel == Channel::outlet   ? "outlet pressure"
+                                            : "torque",
+         {"tachometer", "inlet pressure", "outlet pressure", "torque"}, "What it measures.");
+  v.text_or_null("record", one.record, "In which record; null: all of them.");
+  v.word("quantity", to_string(one.quantity), {"gain", "sign", "zero", "delay"},
+         "Recorded = gain true + zero, later by the delay. Sign: a negative gain.");
+  describe_interval(v, "value", one.interval, one.unit.empty() ? "1" : one.unit,
+                    "As it must be for the others to be right; null where not determined.");
+  v.number("stated_uncertainty", one.stated_uncertainty, as_named,
+           "1 sigma by the stated accuracy of the channel and of what it is compared with.");
+  v.text("against", one.against, "Compared with.");
+  v.word("verdict", to_string(one.verdict), {"right", "suspect", "undeterminable"},
+         "Suspect: the interval with the stated accuracy excludes 1 (0 of a zero or delay).");
+  v.optional_group("likely", one.likely, "The likely reason of a gain that is suspect; else null.",
+                   [&](const identification::LikelyFactor& likely) {
+                     v.number("factor", likely.factor, unit::ratio, "Recorded over true.");
+                     v.text_or_null("name", likely.name,
+                                    "Of the usual mistakes; null: the measured factor.");
+                   });
+  v.flag("used", one.is_used, "False: other motors' values stand for it.");
+}
+
 void describe_contradiction(Visitor& v, const Contradiction& one) {
   v.text("key", one.key, "Of the case, or the id of a stated number.");
   v.text("stated", one.stated, "As written.");
@@ -326,8 +354,10 @@ void describe(Visitor& v, const CampaignSection& section) {
   v.list("records", section.notes.records, "In the case's order, refused ones too.",
          [&](const RecordNotes& record) { describe_record(v, record); });
   v.texts("assumptions", section.notes.assumptions, "What was taken for granted.");
-  v.text_or_null("rejected_because", to_string(rejection(section)),
-                 "Why no value is recommended: contradicts the case, fit failed; null if one is.");
+  v.text_or_null(
+      "rejected_because", to_string(rejection(section)),
+      "Why no value is recommended: channels contradict one another, contradicts the case, fit "
+      "failed; null if one is.");
   v.optional_group("recommended", recommended(section),
                    "What a design may take; null where no value is recommended.",
                    [&](const RecommendedValues& values) {
@@ -338,6 +368,9 @@ void describe(Visitor& v, const CampaignSection& section) {
                    });
   v.list("look_at", suspicions(section), "Records and channels to look at, the worst first.",
          [&](const ChannelSuspicion& one) { describe_suspicion(v, one); });
+  v.list("channels", section.channels,
+         "What each channel's gain, zero and delay must be for the others to be right.",
+         [&](const identification::ChannelCheck& one) { describe_channel(v, one); });
   v.optional_group("combined", section.grey_box,
                    "Null where no model explains the records; recommended only where that is not "
                    "null.",

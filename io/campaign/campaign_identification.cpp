@@ -10,6 +10,7 @@
 #include <boresight/identification/resonance/drive_response.hpp>
 #include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/campaign/channel_findings.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_oil.hpp>
 #include <boresight/io/case/case_tests.hpp>
@@ -55,6 +56,13 @@ void attempt(const std::string& method, std::vector<MethodFailure>& failures,
   } catch (const NumericalFailure& failure) {
     failures.push_back({method, failure.what()});
   }
+}
+
+std::vector<identification::ChannelCheck> checked_channels(const LoadedCampaign& loaded) {
+  std::vector<identification::EvaluatedRecord> records;
+  records.reserve(loaded.records.size());
+  for (const LoadedRecord& one : loaded.records) records.push_back({&one.raw, &one.clean});
+  return identification::channel_consistency(records, loaded.knowledge, loaded.instruments);
 }
 
 void run_slosh(const Campaign& campaign, CampaignSection& section) {
@@ -224,6 +232,7 @@ CampaignSection identify_campaign(const Case& antenna, LoadedCampaign loaded,
                                   const IdentificationOptions& options) {
   CampaignSection section;
   SharedProgress progress(options);
+  section.channels = checked_channels(loaded);
   const Campaign campaign = make_campaign(antenna, std::move(loaded), section.notes);
   section.knowledge = campaign.knowledge;
   section.instruments = campaign.instruments;
@@ -256,6 +265,10 @@ CampaignSection identify_campaign(const Case& antenna, LoadedCampaign loaded,
   }
   progress.tell(SharedProgress::ranking, 1.0);
   if (section.grey_box) section.contradiction = contradiction_with_case(*section.grey_box);
+  if (std::string channels = channel_contradiction(section); !channels.empty()) {
+    if (!section.contradiction.empty()) channels += " " + section.contradiction;
+    section.contradiction = std::move(channels);
+  }
   section.inertia = inertia_rows(section, antenna);
   section.quantities = quantity_rows(section);
   section.friction = friction_rows(section, campaign);

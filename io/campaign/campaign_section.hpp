@@ -9,6 +9,7 @@
 #include <boresight/identification/grey_box/grey_box_information_gain.hpp>
 #include <boresight/identification/impulse/impulse_momentum.hpp>
 #include <boresight/identification/lines/slosh.hpp>
+#include <boresight/identification/records/channel_consistency.hpp>
 #include <boresight/identification/resonance/hydraulic_resonance.hpp>
 #include <boresight/io/campaign/campaign.hpp>
 
@@ -91,6 +92,8 @@ struct CampaignSection {
   CampaignNotes notes;
   identification::DriveKnowledge knowledge;
   identification::Instruments instruments;
+  /// What each channel must be for the others to be right.
+  std::vector<identification::ChannelCheck> channels;
   std::vector<SloshTest> slosh;
   /// Of the slosh test with the smallest uncertainty; without one what the case states, and then
   /// `bulk_modulus_stated`.
@@ -107,8 +110,8 @@ struct CampaignSection {
   std::optional<identification::CombinedInertia> mean_of_methods;
   std::optional<HoldOut> hold_out;  // where a record has a valve command and others are left
   std::vector<MethodFailure> failures;
-  /// The first of the sentences below that applies, where records contradict stated numbers or
-  /// methods contradict one another significantly; otherwise empty.
+  /// Sentences where channels contradict one another, where records contradict stated numbers or
+  /// where methods contradict one another significantly; otherwise empty.
   std::string contradiction;
   /// Quantities that these records do not determine.
   std::vector<std::string> not_identifiable;

@@ -4,6 +4,7 @@
 
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/io/campaign/campaign_identification.hpp>
+#include <boresight/io/campaign/channel_findings.hpp>
 #include <boresight/io/campaign/designed_antenna.hpp>
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -47,6 +48,9 @@ DesignedAntenna designed_antenna(const Case& stated, const std::optional<Campaig
     design::PlantEnsemble ensemble{design::EnsembleSource::ranges, plant_members(mission, seed)};
     auto distribution = design::PlantDistribution::of_ranges(mission);
     return {stated, std::move(mission), std::move(ensemble), std::move(distribution), {}, false};
+  }
+  if (rejection(*campaign) == Rejection::channels_contradict) {
+    throw NumericalFailure(fmt::format("{}: {}", stated.path, channel_contradiction(*campaign)));
   }
   // As many as the reference ensemble has.
   constexpr std::size_t members = 30;

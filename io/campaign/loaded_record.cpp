@@ -84,7 +84,7 @@ void check_names(const Case& antenna, const std::vector<LoadedRecord>& works) {
                           in_quotes(name), did_you_mean(name, names), columns_of(all)));
   };
   const RecordColumnsEntry& entry = antenna.campaign->columns;
-  for (const auto* command : {&entry.rate_command, &entry.valve_command}) {
+  for (const auto* command : {&entry.rate_command, &entry.valve_command, &entry.encoder}) {
     if (*command) check((*command)->name, (*command)->location, (*command)->key);
   }
   for (const std::string& name : entry.reversed)

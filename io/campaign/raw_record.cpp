@@ -11,6 +11,7 @@
 #include <boresight/io/case/case_motor.hpp>
 #include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/field.hpp>
+#include <boresight/io/records/encoder_column.hpp>
 #include <boresight/io/records/measured_column.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/records/recorded_unit.hpp>
@@ -30,7 +31,8 @@ class Mapper {
 
   identification::RawRecord map() {
     const RecordColumnsEntry& entry = campaign_.columns;
-    const ChosenColumns chosen = choose_columns(table_, entry, antenna_.motor->count);
+    const ChosenColumns chosen =
+        choose_columns(table_, entry, antenna_.motor->count, antenna_.axis);
     notes_.remarks.insert(notes_.remarks.end(), chosen.remarks.begin(), chosen.remarks.end());
     identification::RawRecord raw;
     raw.tachometer = tachometer(chosen.tachometer);
@@ -41,6 +43,7 @@ class Mapper {
     }
     if (chosen.rate_command) raw.rate_command = rate_command(*chosen.rate_command);
     if (chosen.valve_command) raw.valve_command = valve_command(*chosen.valve_command);
+    if (chosen.encoder) raw.encoder = encoder(*chosen.encoder);
     for (std::size_t i = 0; i < table_.columns.size(); ++i) {
       if (!used_.contains(i)) notes_.unused_columns.push_back(table_.columns[i].name);
     }
@@ -197,6 +200,17 @@ class Mapper {
     const auto& instruments = campaign_.instruments;
     return scaled(column, instruments ? instruments->valve_command_scale : std::nullopt, 1.0,
                   entry.has_value(), "valve_command_scale");
+  }
+
+  std::optional<RawChannel> encoder(const ChosenColumn& chosen) {
+    if (lacks_unit(chosen)) return std::nullopt;
+    const MeasuredColumn column = measured(chosen, campaign_.columns.encoder, "encoder", "encoder");
+    if (column.unit.dimension != dimension_of(Kind::angle)) {
+      refuse_kind(table_, column, "an angle at the sky");
+    }
+    RawChannel result = channel(column, column.unit.factor);
+    make_continuous(result.values);
+    return result;
   }
 
   const Case& antenna_;

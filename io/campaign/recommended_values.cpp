@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/campaign/channel_findings.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/numerics/error.hpp>
@@ -151,6 +152,7 @@ void add_contradicted(const CampaignSection& section, std::vector<ChannelSuspici
 
 Rejection rejection(const CampaignSection& section) {
   if (!section.grey_box) return Rejection::fit_failed;
+  if (channels_contradict(section)) return Rejection::channels_contradict;
   return section.grey_box->estimate.contradicted || section.grey_box->conflict.widening > 1.0
              ? Rejection::contradicts_case
              : Rejection::none;
@@ -158,6 +160,8 @@ Rejection rejection(const CampaignSection& section) {
 
 std::string to_string(Rejection why) {
   switch (why) {
+    case Rejection::channels_contradict:
+      return "channels contradict one another";
     case Rejection::contradicts_case:
       return "contradicts the case";
     case Rejection::fit_failed:
@@ -186,7 +190,8 @@ std::vector<SupersededInput> superseded_inputs(const Case& stated, const Campaig
 }
 
 std::vector<ChannelSuspicion> suspicions(const CampaignSection& section) {
-  std::vector<ChannelSuspicion> found = by_defects(section.notes);
+  std::vector<ChannelSuspicion> found = channel_suspicions(section);
+  for (ChannelSuspicion& one : by_defects(section.notes)) found.push_back(std::move(one));
   if (section.grey_box) {
     add_unexplained(section, found);
     if (rejection(section) == Rejection::contradicts_case) add_contradicted(section, found);

@@ -12,11 +12,12 @@ namespace boresight::io {
 /// Why a campaign recommends no value.
 enum class Rejection {
   none,
-  contradicts_case,  // the fit contradicts stated numbers that inertia and stiffness rest on
-  fit_failed,        // no model explains all records
+  channels_contradict,  // a channel is suspect against the others, see channel_findings.hpp
+  contradicts_case,     // the fit contradicts stated numbers that inertia and stiffness rest on
+  fit_failed,           // no model explains all records
 };
 Rejection rejection(const CampaignSection& section);
-/// "contradicts the case", "fit failed"; empty for none.
+/// "channels contradict one another", "contradicts the case", "fit failed"; empty for none.
 std::string to_string(Rejection why);
 
 /// What a design may take from a campaign.
@@ -34,7 +35,8 @@ std::vector<SupersededInput> superseded_inputs(const Case& stated, const Campaig
 
 /// Records and channels to check, for one reason.
 struct ChannelSuspicion {
-  /// As to_string(DefectKind); "not explained" for a record that the fit misses.
+  /// As to_string(DefectKind); "suspect gain" and the like of a channel against others; "not
+  /// explained" for a record that the fit misses.
   std::string finding;
   std::vector<std::string> records;
   std::vector<std::string> channels;  // as the files call them; empty: records as a whole
@@ -43,7 +45,8 @@ struct ChannelSuspicion {
   std::string explanation;  // of the first
 };
 
-/// What is wrong with the data, the worst first: refused records; channels that are dead,
+/// What is wrong with the data, the worst first: refused records; channels that are suspect against
+/// others (channel_suspicions); channels that are dead,
 /// exchanged, reversed or on another scale; samples that are missing, stuck or clipped, where they
 /// are many (from a two-hundredth of a record; half for clipped ones, which fast tests mean to
 /// have); and records whose rate the fit predicts five times worse than the median record's. Where

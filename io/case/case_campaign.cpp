@@ -70,6 +70,7 @@ RecordColumnsEntry read_columns(TableReader& table, long motors) {
   entry.tachometer = read_optional_column(table, "tachometer");
   entry.rate_command = read_optional_column(table, "rate_command");
   entry.valve_command = read_optional_column(table, "valve_command");
+  entry.encoder = read_optional_column(table, "encoder");
   if (may_have(table, "reversed")) {
     entry.reversed = table.texts("reversed");
     entry.reversed_location = table.location("reversed");

@@ -31,7 +31,7 @@ struct ColumnEntry {
 struct RecordColumnsEntry {
   std::optional<ColumnEntry> time;
   std::vector<ColumnEntry> inlet, outlet;  // one a motor, in the order of the motors; or none
-  std::optional<ColumnEntry> tachometer, rate_command, valve_command;
+  std::optional<ColumnEntry> tachometer, rate_command, valve_command, encoder;
   /// Names of columns whose sign is turned.
   std::vector<std::string> reversed;
   Location reversed_location;

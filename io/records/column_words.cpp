@@ -11,6 +11,22 @@ bool is_letter(char c) {
   return c >= 'a' && c <= 'z';
 }
 
+// Names of the antenna's axis in columns.
+const std::vector<std::string_view>& names_of(std::string_view axis) {
+  static const std::vector<std::string_view> elevation{"el", "elevation", "elev"};
+  static const std::vector<std::string_view> azimuth{"az", "azimuth", "azim"};
+  static const std::vector<std::string_view> x{"x"};
+  static const std::vector<std::string_view> y{"y"};
+  return axis == "elevation" ? elevation : axis == "azimuth" ? azimuth : axis == "X" ? x : y;
+}
+
+std::string_view other_axis(std::string_view axis) {
+  return axis == "elevation" ? "azimuth"
+         : axis == "azimuth" ? "elevation"
+         : axis == "X"       ? "Y"
+                             : "X";
+}
+
 }  // namespace
 
 std::string lower(std::string_view text) {
@@ -72,6 +88,43 @@ bool is_rate_command(const std::vector<std::string>& words) {
 bool is_time(const std::vector<std::string>& words) {
   return words.size() <= 2 && !words.empty() &&
          (words[0] == "time" || words[0] == "timestamp" || (words.size() == 1 && words[0] == "t"));
+}
+
+bool is_wind(const std::vector<std::string>& words) {
+  return std::ranges::any_of(words, [](const std::string& word) {
+    return word.starts_with("wind") || word.starts_with("anemometer");
+  });
+}
+
+bool is_error(const std::vector<std::string>& words) {
+  return std::ranges::any_of(words, [](const std::string& word) {
+    return word.ends_with("error") || word.ends_with("err") || word == "deviation";
+  });
+}
+
+bool is_boresight(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 4> names{"boresight", "pointing", "beam", "conscan"};
+  return has_any(words, names);
+}
+
+bool is_encoder(const std::vector<std::string>& words) {
+  return std::ranges::any_of(
+      words, [](const std::string& word) { return word.starts_with("encoder") || word == "enc"; });
+}
+
+bool is_position(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 4> names{"position", "pos", "angle", "actual"};
+  return has_any(words, names);
+}
+
+bool has_axis(const std::vector<std::string>& words, std::string_view axis) {
+  return std::ranges::any_of(names_of(axis), [&](std::string_view name) {
+    return std::ranges::find(words, name) != words.end();
+  });
+}
+
+bool is_of_axis(const std::vector<std::string>& words, std::string_view axis) {
+  return has_axis(words, axis) || !has_axis(words, other_axis(axis));
 }
 
 }  // namespace boresight::io

@@ -32,5 +32,15 @@ bool is_valve(const std::vector<std::string>& words);
 bool is_tachometer(const std::vector<std::string>& words);
 bool is_rate_command(const std::vector<std::string>& words);
 bool is_time(const std::vector<std::string>& words);
+bool is_wind(const std::vector<std::string>& words);
+bool is_error(const std::vector<std::string>& words);
+bool is_boresight(const std::vector<std::string>& words);
+bool is_encoder(const std::vector<std::string>& words);
+bool is_position(const std::vector<std::string>& words);
+
+/// Whether the words name this axis of a case ("elevation", "azimuth", "X", "Y").
+bool has_axis(const std::vector<std::string>& words, std::string_view axis);
+/// Not of the other axis alone.
+bool is_of_axis(const std::vector<std::string>& words, std::string_view axis);
 
 }  // namespace boresight::io

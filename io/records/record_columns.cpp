@@ -7,6 +7,7 @@
 
 #include <boresight/io/records/column_chooser.hpp>
 #include <boresight/io/records/column_words.hpp>
+#include <boresight/io/records/encoder_column.hpp>
 #include <boresight/io/records/record_columns.hpp>
 #include <boresight/io/units/kinds.hpp>
 
@@ -27,8 +28,8 @@ bool is_port(const std::vector<std::string>& words, bool inlet, long motor, long
 
 }  // namespace
 
-ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry,
-                             long motors) {
+ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry& entry, long motors,
+                             std::string_view axis) {
   const ColumnChooser chooser(table);
   const auto choose = [&](const std::optional<ColumnEntry>& column,
                           std::initializer_list<Dimension> kinds, const auto& fits) {
@@ -70,6 +71,10 @@ ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry&
   };
   chosen.rate_command = command(entry.rate_command, is_rate_command);
   chosen.valve_command = command(entry.valve_command, is_valve);
+  if (!chooser.lacks(entry.encoder, chosen.remarks)) {
+    chosen.encoder = entry.encoder ? std::optional(chooser.named(*entry.encoder))
+                                   : guessed_encoder(chooser, axis);
+  }
   return chosen;
 }
 

@@ -1,13 +1,11 @@
-#include <algorithm>
-#include <array>
 #include <functional>
 #include <initializer_list>
-#include <string_view>
 #include <utility>
 
 #include <boresight/io/case/case_campaign.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/records/column_words.hpp>
+#include <boresight/io/records/encoder_column.hpp>
 #include <boresight/io/records/servo_columns.hpp>
 #include <boresight/io/units/kinds.hpp>
 
@@ -15,55 +13,6 @@ namespace boresight::io {
 namespace {
 
 using Words = ColumnChooser::Words;
-
-bool is_wind(const Words& words) {
-  return std::ranges::any_of(words, [](const std::string& word) {
-    return word.starts_with("wind") || word.starts_with("anemometer");
-  });
-}
-
-bool is_error(const Words& words) {
-  return std::ranges::any_of(words, [](const std::string& word) {
-    return word.ends_with("error") || word.ends_with("err") || word == "deviation";
-  });
-}
-
-bool is_boresight(const Words& words) {
-  constexpr std::array<std::string_view, 4> names{"boresight", "pointing", "beam", "conscan"};
-  return has_any(words, names);
-}
-
-bool is_encoder(const Words& words) {
-  return std::ranges::any_of(
-      words, [](const std::string& word) { return word.starts_with("encoder") || word == "enc"; });
-}
-
-// Names of the antenna's axis in columns.
-const std::vector<std::string_view>& names_of(std::string_view axis) {
-  static const std::vector<std::string_view> elevation{"el", "elevation", "elev"};
-  static const std::vector<std::string_view> azimuth{"az", "azimuth", "azim"};
-  static const std::vector<std::string_view> x{"x"};
-  static const std::vector<std::string_view> y{"y"};
-  return axis == "elevation" ? elevation : axis == "azimuth" ? azimuth : axis == "X" ? x : y;
-}
-
-std::string_view other_axis(std::string_view axis) {
-  return axis == "elevation" ? "azimuth"
-         : axis == "azimuth" ? "elevation"
-         : axis == "X"       ? "Y"
-                             : "X";
-}
-
-bool has_axis(const Words& words, std::string_view axis) {
-  return std::ranges::any_of(names_of(axis), [&](std::string_view name) {
-    return std::ranges::find(words, name) != words.end();
-  });
-}
-
-bool is_position(const Words& words) {
-  constexpr std::array<std::string_view, 4> names{"position", "pos", "angle", "actual"};
-  return has_any(words, names);
-}
 
 class ServoChooser {
  public:
@@ -95,27 +44,15 @@ class ServoChooser {
       return is_command(words) && !is_rate(words) && !is_valve(words) && !is_error(words) &&
              !is_boresight(words);
     });
-    const auto encoder = [this](bool by_name) {
-      return [by_name, this](const Words& words) {
-        return (by_name ? is_encoder(words) : is_position(words) || has_axis(words, axis_)) &&
-               !is_command(words) && !is_rate(words) && !is_error(words) && !is_boresight(words);
-      };
-    };
-    result_.encoder = position({angle}, encoder(true));
-    if (!result_.encoder) result_.encoder = position({angle}, encoder(false));
+    result_.encoder = guessed_encoder(chooser_, axis_);
     return std::move(result_);
   }
 
  private:
-  // Not of the other axis alone.
-  bool is_of_axis(const Words& words) const {
-    return has_axis(words, axis_) || !has_axis(words, other_axis(axis_));
-  }
-
   // Of the drive of this axis, neither wind nor an error.
   std::function<bool(const Words&)> own(bool (*fits)(const Words&)) const {
     return [fits, this](const Words& words) {
-      return fits(words) && !is_wind(words) && !is_error(words) && is_of_axis(words);
+      return fits(words) && !is_wind(words) && !is_error(words) && is_of_axis(words, axis_);
     };
   }
 
@@ -123,7 +60,7 @@ class ServoChooser {
   std::optional<ChosenColumn> position(std::initializer_list<Dimension> kinds,
                                        const Condition& fits) const {
     return chooser_.guessed(kinds, [&](const Words& words) {
-      return fits(words) && !is_wind(words) && is_of_axis(words);
+      return fits(words) && !is_wind(words) && is_of_axis(words, axis_);
     });
   }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/io/records/column_names.hpp>
 #include <boresight/io/records/column_words.hpp>
+#include <boresight/io/records/encoder_column.hpp>
 #include <boresight/io/records/measured_column.hpp>
 #include <boresight/io/records/record_file.hpp>
 #include <boresight/io/records/recorded_unit.hpp>
@@ -40,16 +40,6 @@ constexpr double largest_invalid_fraction = 0.5;
 bool has_word(const RecordColumn& column, const std::string& begin) {
   return std::ranges::any_of(words_of(column.name),
                              [&](const std::string& word) { return word.starts_with(begin); });
-}
-
-// A step of more than half a turn is a full turn of the display.
-void make_continuous(Eigen::VectorXd& angle) {
-  double last = std::numeric_limits<double>::quiet_NaN();
-  for (double& value : angle) {
-    if (!std::isfinite(value)) continue;
-    if (std::isfinite(last)) value = last + std::remainder(value - last, two_pi);
-    last = value;
-  }
 }
 
 double invalid_fraction(const Signal& signal) {

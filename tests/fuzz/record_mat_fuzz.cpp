@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     io::is_mat(content);
     const io::RecordTable table = io::read_record_mat(content, "record.mat");
     for (const auto& column : table.columns) io::recorded_unit(column.unit);
-    io::choose_columns(table, {}, 1);
+    io::choose_columns(table, {}, 1, "elevation");
   } catch (const InvalidInput&) {  // refused in words, as it should be
   }
   return 0;

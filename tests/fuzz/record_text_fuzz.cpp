@@ -63,7 +63,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     clean(table);
     choose_servo(table);
-    io::choose_columns(table, {}, 1);
+    io::choose_columns(table, {}, 1, "elevation");
   } catch (const InvalidInput&) {  // refused in words, as it should be
   }
   return 0;

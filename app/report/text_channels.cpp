@@ -1,0 +1,41 @@
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <boresight/app/document/document.hpp>
+#include <boresight/app/report/text_report.hpp>
+#include <boresight/io/campaign/campaign_wording.hpp>
+
+namespace boresight::app {
+
+Document document_of(const std::vector<identification::ChannelCheck>& channels) {
+  if (channels.empty()) return {};
+  Document text = heading("Channels against one another");
+  std::vector<std::vector<std::string>> rows{{"channel", "record", "quantity", "value",
+                                              "95 % interval", "stated +-", "against", "verdict",
+                                              "likely"}};
+  for (const auto& one : channels) {
+    const auto unit = io::shown_unit(one.unit);
+    std::string likely;
+    if (one.likely) {
+      likely =
+          one.likely->name.empty() ? fmt::format("{:.3g}", one.likely->factor) : one.likely->name;
+    }
+    rows.push_back({one.name, one.record.empty() ? "all" : one.record,
+                    unit.name == "1" ? to_string(one.quantity)
+                                     : fmt::format("{}, {}", to_string(one.quantity), unit.name),
+                    one.interval ? io::significant(unit.scale * one.interval->value) : "-",
+                    one.interval ? io::range(*one.interval, unit.scale) : "-",
+                    fmt::format("{:.2g}", unit.scale * one.stated_uncertainty), one.against,
+                    to_string(one.verdict), likely});
+  }
+  text += table(rows, "lllrrrlll");
+  return text + wrapped(
+                    "Value: what the channel's gain (1 if right), zero and delay must be for what "
+                    "it is compared with to be right. Suspect: the interval with the stated "
+                    "accuracy of both excludes 1 or 0.",
+                    "  ");
+}
+
+}  // namespace boresight::app

@@ -1,0 +1,137 @@
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <boresight/io/campaign/campaign_wording.hpp>
+#include <boresight/io/campaign/channel_findings.hpp>
+
+namespace boresight::io {
+namespace {
+
+using identification::ChannelCheck;
+using identification::ChannelQuantity;
+using identification::ChannelVerdict;
+using Channel = ChannelCheck::Channel;
+
+bool is_gain(const ChannelCheck& one) {
+  return one.quantity == ChannelQuantity::gain || one.quantity == ChannelQuantity::sign;
+}
+
+// Whether another row that is suspect explains this one.
+bool follows_from(const ChannelCheck& one, const ChannelCheck& other) {
+  if (other.verdict != ChannelVerdict::suspect || other.record != one.record) return false;
+  if (one.channel == Channel::torque) {
+    const bool pressure = other.channel == Channel::inlet || other.channel == Channel::outlet;
+    if (pressure && other.motor == one.motor) return true;
+  }
+  return !is_gain(one) && is_gain(other) && other.channel == one.channel &&
+         other.motor == one.motor;
+}
+
+// Suspect rows that no other explains.
+std::vector<const ChannelCheck*> primary(const CampaignSection& section) {
+  std::vector<const ChannelCheck*> found;
+  for (const ChannelCheck& one : section.channels) {
+    if (one.verdict != ChannelVerdict::suspect) continue;
+    const bool follows = std::ranges::any_of(
+        section.channels, [&](const ChannelCheck& other) { return follows_from(one, other); });
+    if (!follows) found.push_back(&one);
+  }
+  return found;
+}
+
+std::vector<std::string> compared_records(const CampaignSection& section, const ChannelCheck& one) {
+  if (!one.record.empty()) return {one.record};
+  std::vector<std::string> names;
+  for (const RecordNotes& record : section.notes.records) {
+    if (record.test != identification::TestKind::slosh) names.push_back(record.name);
+  }
+  return names;
+}
+
+// "p1_in", "p1_out" of one motor with the same factor are one finding.
+bool is_same_finding(const ChannelCheck& a, const ChannelCheck& b) {
+  return a.motor == b.motor && a.quantity == b.quantity && a.record == b.record && a.likely &&
+         b.likely && !a.likely->name.empty() && a.likely->name == b.likely->name;
+}
+
+}  // namespace
+
+std::string departure_of(const ChannelCheck& check) {
+  if (!check.interval) return "not determined";
+  const auto& interval = *check.interval;
+  if (is_gain(check)) {
+    return fmt::format("{} times ({} to {}) what the {} shows, stated to {:.2g} %",
+                       significant(interval.value), significant(interval.lower),
+                       significant(interval.upper), check.against,
+                       100.0 * check.stated_uncertainty / std::max(1.0, std::abs(interval.value)));
+  }
+  const ShownUnit unit = shown_unit(check.unit);
+  return fmt::format(
+      "{} {} ({} to {}) {} what the {} shows, stated to {:.2g} {}",
+      significant(std::abs(interval.value) * unit.scale), unit.name,
+      significant(interval.lower * unit.scale), significant(interval.upper * unit.scale),
+      check.quantity == ChannelQuantity::delay ? (interval.value < 0.0 ? "ahead of" : "behind")
+                                               : (interval.value < 0.0 ? "below" : "above"),
+      check.against, check.stated_uncertainty * unit.scale, unit.name);
+}
+
+bool channels_contradict(const CampaignSection& section) {
+  return std::ranges::any_of(section.channels, [](const ChannelCheck& one) {
+    return one.verdict == ChannelVerdict::suspect && one.is_used;
+  });
+}
+
+std::string channel_contradiction(const CampaignSection& section) {
+  std::string text;
+  for (const ChannelCheck* one : primary(section)) {
+    if (!one->is_used) continue;
+    text += fmt::format("{}{}{} is {}", text.empty() ? "" : "; ", one->name,
+                        one->record.empty() ? "" : " in record '" + one->record + "'",
+                        departure_of(*one));
+  }
+  if (text.empty()) return text;
+  return fmt::format(
+      "The records' channels contradict one another: {}. Check the transducer or its scale in the "
+      "case; the values below are of the channels as recorded.",
+      text);
+}
+
+std::vector<ChannelSuspicion> channel_suspicions(const CampaignSection& section) {
+  std::vector<ChannelSuspicion> found;
+  std::vector<const ChannelCheck*> first;
+  for (const ChannelCheck* one : primary(section)) {
+    const auto same = std::ranges::find_if(
+        first, [&](const ChannelCheck* other) { return is_same_finding(*other, *one); });
+    if (same != first.end()) {
+      found[static_cast<std::size_t>(same - first.begin())].channels.push_back(one->name);
+      continue;
+    }
+    ChannelSuspicion suspicion;
+    suspicion.finding = fmt::format("suspect {}", to_string(one->quantity));
+    suspicion.records = compared_records(section, *one);
+    suspicion.channels = {one->name};
+    suspicion.fraction = 1.0;
+    const std::string likely =
+        !one->likely ? ""
+        : one->likely->name.empty()
+            ? fmt::format(", likely factor {:.3g}", one->likely->factor)
+            : fmt::format(", likely {}{}",
+                          one->likely->name.find_first_not_of("0123456789./") == std::string::npos
+                              ? "factor "
+                              : "",
+                          one->likely->name);
+    suspicion.explanation =
+        fmt::format("{}{}: {}", departure_of(*one), likely,
+                    one->is_used ? "check the transducer or its scale in the case"
+                                 : "not used, the other motors' stand for it");
+    first.push_back(one);
+    found.push_back(std::move(suspicion));
+  }
+  return found;
+}
+
+}  // namespace boresight::io

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <boresight/io/campaign/recommended_values.hpp>
+
+namespace boresight::io {
+
+/// Whether a channel whose values enter the methods is suspect (identification::ChannelCheck): what
+/// the records say of the drive is then not what the drive is.
+bool channels_contradict(const CampaignSection& section);
+
+/// The suspect channels and what to do, a sentence; empty if none that is used is suspect.
+std::string channel_contradiction(const CampaignSection& section);
+
+/// Suspect channels by quantity. A gain that is wrong makes the channel's zero, and a wrong
+/// pressure its motor's torque: these are not listed again.
+std::vector<ChannelSuspicion> channel_suspicions(const CampaignSection& section);
+
+/// What a channel shows against what it is compared with: "1.05 times (1.048 to 1.052) what the
+/// encoder shows, stated to 0.3 %".
+std::string departure_of(const identification::ChannelCheck& check);
+
+}  // namespace boresight::io

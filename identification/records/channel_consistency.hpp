@@ -59,8 +59,8 @@ struct ChannelCheck {
 
 struct ChannelConsistencyOptions {
   /// Standard uncertainties, of estimate and stated accuracy together, from which a quantity is
-  /// suspect: with some 20 quantities a campaign, fewer than one right campaign in a hundred has
-  /// one.
+  /// suspect: of the some 25 quantities of a campaign without faults one is beyond it in about one
+  /// campaign of a hundred.
   double suspect_beyond = 3.5;
   /// Means of pressures over so long are compared, s: longer than lines ring.
   double pressure_block = 0.2;

@@ -31,9 +31,11 @@ inline std::string& cell(const std::vector<std::string>& header, std::vector<std
   return cells.at(static_cast<std::size_t>(at - header.begin()));
 }
 
-/// A campaign of these records, of which those of `spoiled` are.
+/// A campaign of these records, of which those of `spoiled` are. `further`: columns that the
+/// spoiling appends to each row, ",name [unit]".
 inline Case broken_campaign(const std::string& campaign, const std::vector<std::string>& records,
-                            const std::vector<std::string>& spoiled, const Spoil& spoil) {
+                            const std::vector<std::string>& spoiled, const Spoil& spoil,
+                            const std::string& further = "") {
   const auto among = [](const std::vector<std::string>& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
   };
@@ -48,6 +50,7 @@ inline Case broken_campaign(const std::string& campaign, const std::vector<std::
     std::ofstream target(entry.file);
     std::string line;
     std::getline(source, line);
+    line += further;
     target << line << "\n";
     std::vector<std::string> header = cells_of(line);
     for (std::string& name : header) name.resize(std::min(name.find(' '), name.size()));

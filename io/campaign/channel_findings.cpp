@@ -22,7 +22,8 @@ bool is_gain(const ChannelCheck& one) {
 
 // Whether another row that is suspect explains this one.
 bool follows_from(const ChannelCheck& one, const ChannelCheck& other) {
-  if (other.verdict != ChannelVerdict::suspect || other.record != one.record) return false;
+  if (other.verdict != ChannelVerdict::suspect) return false;
+  if (!other.record.empty() && other.record != one.record) return false;
   if (one.channel == Channel::torque) {
     const bool pressure = other.channel == Channel::inlet || other.channel == Channel::outlet;
     if (pressure && other.motor == one.motor) return true;

@@ -72,7 +72,8 @@ struct ChannelConsistencyOptions {
   /// of its fastest rate.
   double widest_zero = 0.05;
   double widest_delay = 0.2;  // s
-  /// Height between the motors' transducers, standard deviation, m: the oil between adds to the lower one.
+  /// Height between the motors' transducers, standard deviation, m: the oil between adds to the
+  /// lower one.
   double height = 0.5;
   /// Of the tachometer's zero, in parts of its fastest rate: no accuracy of it is stated.
   double tachometer_zero = 0.005;

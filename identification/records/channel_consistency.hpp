@@ -91,12 +91,12 @@ struct ChannelConsistencyOptions {
 /// are left out.
 ///
 /// Each motor's pressure against the mean of the other motors' at the same common line, both over
-/// pressure_block:  p = G r + z + a w + b w |w|,
-/// w the motor rate: what the pressure differs with the flow, as unlike line losses make it, is
-/// fitted along and counts as no error. The allowance for unlike heights is density g height. The
-/// reference's noise (noise_level) is accounted for. Slosh tests are left out: each line rings. The
-/// torque of each motor (torque_per_pressure times the difference of its ports) against the mean of
-/// the others', to which the gear train couples it, in the same way.
+/// pressure_block:  p = G r + z + a w + b w |w| + c dw/dt,
+/// w the motor rate: what the pressure differs with the flow, as unlike losses and masses of oil in
+/// the lines make it, is fitted along and counts as no error. The allowance for unlike heights is
+/// density g height. The reference's noise (noise_level) is accounted for. Slosh tests are left
+/// out: each line rings. The torque of each motor (torque_per_pressure times the difference of its
+/// ports) against the mean of the others', to which the gear train couples it, in the same way.
 ///
 /// A channel that is suspect is no reference for others: the one that is furthest off is left out,
 /// and the others are compared again. With two motors both are suspect, as nothing tells which. A

@@ -28,6 +28,7 @@ constexpr double not_recorded = std::numeric_limits<double>::quiet_NaN();
 struct BlockMeans {
   std::vector<Eigen::VectorXd> channels;  // one a motor
   Eigen::VectorXd rate;                   // rad/s
+  Eigen::VectorXd acceleration;           // rad/s2
   Eigen::VectorXd noise_variance;         // of a channel's mean, by the samples' noise
 };
 
@@ -67,6 +68,7 @@ BlockMeans block_means(const RawRecord& raw, const std::vector<Eigen::VectorXd>&
     means.channels.push_back(Eigen::VectorXd::Constant(count, not_recorded));
   }
   means.rate = Eigen::VectorXd::Zero(count);
+  means.acceleration = Eigen::VectorXd::Zero(count);
   means.noise_variance.resize(static_cast<Index>(channels.size()));
   for (std::size_t k = 0; k < channels.size(); ++k) {
     means.noise_variance(static_cast<Index>(k)) =
@@ -75,11 +77,15 @@ BlockMeans block_means(const RawRecord& raw, const std::vector<Eigen::VectorXd>&
   const bool has_rate = raw.tachometer.values.size() == samples;
   for (Index b = 0; b < count; ++b) {
     Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Index>(channels.size()));
-    double rate = 0.0, rates = 0.0;
+    double rate = 0.0, moment = 0.0, spread = 0.0, rates = 0.0;
+    const double centre = static_cast<double>(b * size) + 0.5 * static_cast<double>(size - 1);
     Index taken = 0;
     for (Index i = b * size; i < (b + 1) * size; ++i) {
       if (has_rate && std::isfinite(raw.tachometer.values(i))) {
+        const double place = static_cast<double>(i) - centre;
         rate += raw.tachometer.values(i);
+        moment += place * raw.tachometer.values(i);
+        spread += place * place;
         rates += 1.0;
       }
       const auto is_missing = [&](std::size_t k) {
@@ -94,6 +100,7 @@ BlockMeans block_means(const RawRecord& raw, const std::vector<Eigen::VectorXd>&
       }
     }
     if (rates > 0.0) means.rate(b) = rate / rates;
+    if (spread > 0.0) means.acceleration(b) = moment / spread / step;
     if (2 * taken < size) continue;
     for (std::size_t k = 0; k < channels.size(); ++k) {
       if (present[k])
@@ -121,15 +128,17 @@ class Siblings {
         allowance_(allowance),
         options_(options) {}
 
-  /// The motors to compare with: those that agree in all records and, in each record, in that one.
+  /// The motors to compare with: those that agree in all records and, in each record, are not far
+  /// off in that one. Records with other references than the rest have other gains and zeros, so
+  /// that a motor is not left out of one record lightly.
   void find_references(const Motors& motors) {
     references_.assign(records_.size(), motors);
     for (std::size_t place = 0; place < records_.size(); ++place) {
-      references_[place] = agreeing(motors, {place});
+      references_[place] = agreeing(motors, {place}, 3.0 * options_.suspect_beyond);
     }
     std::vector<std::size_t> all(records_.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
-    everywhere_ = agreeing(motors, all);
+    everywhere_ = agreeing(motors, all, options_.suspect_beyond);
   }
   const Motors& agreeing_everywhere() const { return everywhere_; }
 
@@ -141,9 +150,9 @@ class Siblings {
 
  private:
   // Leaves out the furthest off until the others agree or two are left.
-  Motors agreeing(Motors motors, const std::vector<std::size_t>& places) const {
+  Motors agreeing(Motors motors, const std::vector<std::size_t>& places, double limit) const {
     while (motors.size() > 2) {
-      double furthest = options_.suspect_beyond;
+      double furthest = limit;
       std::optional<std::size_t> suspect;
       for (const std::size_t motor : motors) {
         for (const ComparedQuantity& one : compare(motor, motors, places)) {
@@ -160,7 +169,7 @@ class Siblings {
 
   std::vector<ComparedQuantity> compare(std::size_t motor, const Motors& reference,
                                         const std::vector<std::size_t>& places) const {
-    std::vector<double> own, others, rates;
+    std::vector<double> own, others, rates, accelerations;
     double noise = 0.0;
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
     for (const std::size_t place : places) {
@@ -183,17 +192,19 @@ class Siblings {
         own.push_back(means.channels[motor](b));
         others.push_back(sum / count);
         rates.push_back(means.rate(b));
+        accelerations.push_back(means.acceleration(b));
       }
       if (own.size() == rows_before) continue;
       noise += static_cast<double>(own.size() - rows_before) * variance / (count * count);
       fewest = std::min(fewest, present.size());
     }
-    return regress(own, others, rates, noise, fewest);
+    return regress(own, others, rates, accelerations, noise, fewest);
   }
 
   std::vector<ComparedQuantity> regress(const std::vector<double>& own,
                                         const std::vector<double>& others,
-                                        const std::vector<double>& rates, double noise,
+                                        const std::vector<double>& rates,
+                                        const std::vector<double>& accelerations, double noise,
                                         std::size_t references) const {
     const auto rows = static_cast<Index>(own.size());
     const std::vector<Index> groups = row_groups(rows);
@@ -201,12 +212,13 @@ class Siblings {
     const auto series = [rows](const std::vector<double>& values) {
       return Eigen::Map<const Eigen::VectorXd>(values.data(), rows);
     };
-    Eigen::MatrixXd regressors(rows, 4);
+    Eigen::MatrixXd regressors(rows, 5);
     regressors.col(0) = series(others);
     regressors.col(1).setOnes();
     regressors.col(2) = series(rates);
     regressors.col(3) = series(rates).cwiseProduct(series(rates).cwiseAbs());
-    Eigen::VectorXd noise_variance = Eigen::VectorXd::Zero(4);
+    regressors.col(4) = series(accelerations);
+    Eigen::VectorXd noise_variance = Eigen::VectorXd::Zero(5);
     noise_variance(0) = noise / static_cast<double>(rows);
     const auto found =
         numerics::grouped_regression(regressors, series(own), groups, noise_variance);

@@ -72,7 +72,7 @@ void count(int& covered, const ChannelCheck* row, double truth) {
   if (row->interval->lower <= truth && truth <= row->interval->upper) ++covered;
 }
 
-constexpr int trials = 240;
+constexpr int trials = 200;
 void expect_95(int covered, const char* what) {
   EXPECT_GE(covered, 0.90 * trials) << what;
   EXPECT_LE(covered, 0.995 * trials) << what;

@@ -65,14 +65,14 @@ std::string departure_of(const ChannelCheck& check) {
   if (!check.interval) return "not determined";
   const auto& interval = *check.interval;
   if (is_gain(check)) {
-    return fmt::format("{} times ({} to {}) what the {} shows, stated to {:.2g} %",
+    return fmt::format("{} times ({} to {}) the {}, stated to {:.2g} %",
                        significant(interval.value), significant(interval.lower),
                        significant(interval.upper), check.against,
                        100.0 * check.stated_uncertainty / std::max(1.0, std::abs(interval.value)));
   }
   const ShownUnit unit = shown_unit(check.unit);
   return fmt::format(
-      "{} {} ({} to {}) {} what the {} shows, stated to {:.2g} {}",
+      "{} {} ({} to {}) {} the {}, stated to {:.2g} {}",
       significant(std::abs(interval.value) * unit.scale), unit.name,
       significant(interval.lower * unit.scale), significant(interval.upper * unit.scale),
       check.quantity == ChannelQuantity::delay ? (interval.value < 0.0 ? "ahead of" : "behind")

@@ -18,8 +18,8 @@ std::string channel_contradiction(const CampaignSection& section);
 /// pressure its motor's torque: these are not listed again.
 std::vector<ChannelSuspicion> channel_suspicions(const CampaignSection& section);
 
-/// What a channel shows against what it is compared with: "1.05 times (1.048 to 1.052) what the
-/// encoder shows, stated to 0.3 %".
+/// What a channel shows against what it is compared with: "1.05 times (1.048 to 1.052) the encoder,
+/// stated to 0.3 %".
 std::string departure_of(const identification::ChannelCheck& check);
 
 }  // namespace boresight::io

@@ -267,6 +267,19 @@ bool is_used(const std::vector<EvaluatedRecord>& records, Channel channel, std::
   });
 }
 
+// Ports of a motor that are suspect in all records.
+std::ptrdiff_t suspect_ports(const std::vector<ChannelCheck>& rows, std::size_t motor) {
+  std::set<Channel> ports;
+  for (const ChannelCheck& one : rows) {
+    const bool port = one.channel == Channel::inlet || one.channel == Channel::outlet;
+    if (port && one.motor == motor && one.record.empty() &&
+        one.verdict == ChannelVerdict::suspect) {
+      ports.insert(one.channel);
+    }
+  }
+  return std::ssize(ports);
+}
+
 Eigen::VectorXd channel_values(const RawRecord& raw, Channel channel, std::size_t motor,
                                double torque_per_pressure) {
   const Eigen::VectorXd& inlet = raw.inlet[motor].values;
@@ -343,7 +356,11 @@ std::vector<ChannelCheck> pressure_consistency(const std::vector<EvaluatedRecord
           row, moving,
           [&](const std::vector<std::size_t>& places) { return siblings.compare(motor, places); },
           options);
+      // One wrong port makes a torque that is no multiple of the others'.
+      const bool no_multiple = torque && suspect_ports(rows, motor) == 1;
       for (ChannelCheck one : found) {
+        if (no_multiple && !one.record.empty()) continue;
+        if (no_multiple) one.likely.reset();
         one.is_used = is_used(moving, channel, motor, one.record);
         rows.push_back(std::move(one));
       }

@@ -175,6 +175,14 @@ TEST(ChannelConsistency, NamesTheTorqueOfAMotorWhosePortsAreBothOff) {
   EXPECT_EQ(likely(row_of(rows, "p4_in - p4_out", Quantity::gain)), "0.9");
 }
 
+TEST(ChannelConsistency, GivesNoFactorOfATorqueWithOneWrongPort) {
+  Drive drive;
+  drive.inlet[0].gain = 10.0;
+  for (const ChannelCheck& one : Records(drive, 3, 5).check()) {
+    if (one.channel == ChannelCheck::Channel::torque) EXPECT_FALSE(one.likely) << one.name;
+  }
+}
+
 TEST(ChannelConsistency, NamesOneOfThreeAndBothOfTwoMotors) {
   Drive drive;
   drive.inlet[1].gain = 0.9;

@@ -179,7 +179,8 @@ TEST(ChannelConsistency, GivesNoFactorOfATorqueWithOneWrongPort) {
   Drive drive;
   drive.inlet[0].gain = 10.0;
   for (const ChannelCheck& one : Records(drive, 3, 5).check()) {
-    if (one.channel == ChannelCheck::Channel::torque) EXPECT_FALSE(one.likely) << one.name;
+    if (one.channel != ChannelCheck::Channel::torque) continue;
+    EXPECT_FALSE(one.likely) << one.name;
   }
 }
 

@@ -81,8 +81,9 @@ void add_controller(py::module_& module) {
       "A controller with gains of your own, by symbol, SI. Structures: 'PI-0' (PI without lag), "
       "'PI' (PI with lag), 'DPF' (PI with lag and pressure feedback), 'LL' (PI with lead and lag) "
       "or 'FULL' (PI with lead, lag and pressure feedback), with +L (position lag instead of "
-      "the integrals), +N (notch) and +C (compliance compensation) behind it. Raises InvalidInput "
-      "naming the gains that the structure has.");
+      "the integrals), +D or +F (dead zone or freeze of the integral), +N (notch) and +C "
+      "(compliance compensation) behind it. Raises InvalidInput naming the gains that the "
+      "structure has.");
   module.def(
       "closed_loop",
       [](const Plant& plant, const Controller& controller, double delay) {

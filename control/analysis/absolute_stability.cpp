@@ -24,7 +24,7 @@ PopovResult at(const std::vector<Line>& lines, double q) {
   const Line& least = *std::ranges::min_element(lines, {}, value);
   result.distance = value(least);
   result.frequency = least.frequency;
-  result.proven = result.distance > 0.0;
+  result.proven = result.distance > min_popov_distance;
   return result;
 }
 

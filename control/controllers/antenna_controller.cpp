@@ -18,6 +18,8 @@ namespace {
 using Eigen::Index;
 
 enum Input : Index { tachometer, angle_error, rate_feedforward, torque };
+constexpr int max_halvings = 10;  // of back calculation
+
 enum Measured : Index { measured_rate, measured_angle, measured_torque };
 
 // Q'(0) of a pressure path, s kT/wd of a washed out gain: from its response well below all corners.
@@ -154,8 +156,16 @@ void AntennaController::set_conditional(const Controller& controller) {
   const Controller rest = without_conditional_integral(controller);
   set(in_ports(sampled_controller(rest, sample_time_), reads_torque_));
   integral_.emplace(*conditional_integral(controller), sample_time_);
-  integral_back_calculation_ = back_calculation_fraction_ / (path_gain(rest, LoopPath::rate) *
-                                                             path_gain(rest, LoopPath::position));
+  const double gain = path_gain(rest, LoopPath::rate) * path_gain(rest, LoopPath::position);
+  // Stable at the limit while the integral holds too.
+  const auto radius = [&] {
+    return numerics::spectral_radius(a_ + integral_back_calculation_ * b_.col(angle_error) * c_);
+  };
+  integral_back_calculation_ = back_calculation_fraction_ / gain;
+  for (int i = 0; i < max_halvings && back_calculation_fraction_ > 0.0 && radius() >= 1.0; ++i) {
+    back_calculation_fraction_ *= 0.5;
+    integral_back_calculation_ = back_calculation_fraction_ / gain;
+  }
   if (!rest.structure.has(LoopPath::compliance)) return;
   compliance_ = plant::sample(compliance_compensator(prewarped(rest, sample_time_)), sample_time_,
                               plant::SamplingMethod::tustin);
@@ -171,7 +181,6 @@ void AntennaController::prevent_windup(const Controller& controller) {
   if (radius(back_calculation_) < integrates) return;
   const Eigen::VectorXd whole = -b_.col(angle_error) / (path_gain(controller, LoopPath::rate) *
                                                         path_gain(controller, LoopPath::position));
-  constexpr int max_halvings = 10;
   double fraction = 1.0;
   for (int i = 0; i < max_halvings; ++i, fraction *= 0.5) {
     if (radius(fraction * whole) < 1.0) {

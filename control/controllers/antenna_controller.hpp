@@ -117,7 +117,8 @@ struct AntennaControllerOptions {
 /// controller's states. This is the reference that the antenna could have followed (R. Hanus, M.
 /// Kinnaert, J.-L. Henrotte, Conditioning technique, Automatica 23, 1987). One injection unwinds
 /// both integrators: at the limit the states of a PI-PI controller follow 2 s^2 + (wi + wip) s + wi
-/// wip = 0 instead of s^2 = 0. The injection is halved until the states at the limit are stable.
+/// wip = 0 instead of s^2 = 0. The injection is halved until the states at the limit are stable,
+/// of a conditional integral while it holds too.
 ///
 /// A conditional integral takes the corrected angle through its dead zone or freeze at every
 /// sample. In a steady motion it is within it, at no error of the corrected angle.

@@ -62,6 +62,16 @@ void set_linear_equivalent(const Controller& controller, double amplitude, Contr
   }
 }
 
+Controller linear_equivalent(const Controller& controller, double amplitude) {
+  const auto integral = conditional_integral(controller);
+  if (integral && describing_function(*integral, amplitude) == 0.0) {
+    return without_conditional_integral(controller);
+  }
+  Controller equivalent;
+  set_linear_equivalent(controller, amplitude, equivalent);
+  return equivalent;
+}
+
 Controller without_conditional_integral(const Controller& controller) {
   if (!conditional_integral(controller)) {
     throw InvalidInput(fmt::format(

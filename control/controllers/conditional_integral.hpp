@@ -25,6 +25,8 @@ double conditional_input(const ConditionalIntegral& integral, double x);
 /// Describing function of f for a sine of this amplitude (rad of motor, 0 or more): with
 /// p = asin(width/amplitude), 1 - 2/pi (p + sin p cos p) of a dead zone, 1 - 2/pi (p - sin p cos p)
 /// of a freeze; 0 up to the width. Real, as f has no memory.
+/// With compliance compensation the corrected angle of a held motor moves by the estimated flexure
+/// too, more than the angle alone: a describing function of the angle's amplitude is then too low.
 /// Source: A. Gelb, W. E. Vander Velde, Multiple-Input Describing Functions and Nonlinear System
 /// Design, 1968, appendix B.
 double describing_function(const ConditionalIntegral& integral, double amplitude);
@@ -35,6 +37,8 @@ double describing_function(const ConditionalIntegral& integral, double amplitude
 /// the same structure.
 void set_linear_equivalent(const Controller& controller, double amplitude, Controller& equivalent);
 inline constexpr double held_fraction = 1e-6;
+/// The same, without the integral where the describing function is 0: it leaves no pole near 0.
+Controller linear_equivalent(const Controller& controller, double amplitude);
 
 /// The controller without its conditional integral: the loop while the integral holds.
 /// @throws InvalidInput for a controller that has none.

@@ -119,8 +119,8 @@ bool is_better(const RefinementResult& one, const RefinementResult& than) {
 
 // Which Constraints::static_encoder_error asks of a controller without integral on every plant;
 // none with a limit of 0, which only an integral meets.
-std::optional<double> least_static_gain(const TrackingProblem& problem, const Constraints& goals,
-                                        const std::vector<EnsembleMember>& members) {
+std::optional<double> min_static_gain(const TrackingProblem& problem, const Constraints& goals,
+                                      const std::vector<EnsembleMember>& members) {
   if (!(goals.static_encoder_error.value_or(0.0) > 0.0)) return std::nullopt;
   double demand = std::abs(mean_wind_load(problem).demand);
   TrackingProblem other = problem;
@@ -175,7 +175,7 @@ class Study {
     refined_goals_.sensitivity_peak = 1.0 + used_of_peak * (goals_.sensitivity_peak - 1.0);
     refined_goals_.control_effort *= used_of_effort;
     refined_goals_.position_peak = goals.sensitivity_peak[2];
-    refined_goals_.static_gain = least_static_gain(problem, goals, members);
+    refined_goals_.static_gain = min_static_gain(problem, goals, members);
     if (!goals.standstill) return;
     stated_slopes_ = goals.standstill->friction.size();
     for (std::size_t i = 0; i < at_edges.size(); ++i) {

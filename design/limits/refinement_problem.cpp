@@ -65,7 +65,7 @@ std::array<MatrixXd, sensors> transposed_derivatives(const ParallelSections::Res
   return result;
 }
 
-// 1/abs(K) from the encoder at the lowest frequency, which is three decades below all poles.
+// 1/abs(K) from the encoder at the lowest frequency, three decades below the plants' grid: at rest.
 PeakFigure inverse_at_rest(const ArrayXXcd& controller) {
   constexpr Index encoder = 1;
   const std::complex<double> gain = controller(0, encoder);

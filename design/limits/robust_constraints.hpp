@@ -29,7 +29,8 @@ struct SampledLoopGoals {
   std::optional<double> static_gain = std::nullopt;
 };
 
-/// @throws InvalidInput for a peak not above 1 and an effort or gain not above 0 and finite.
+/// @throws InvalidInput for a peak not above 1, an effort or gain not above 0 and a static gain
+/// that is not finite.
 void validate(const SampledLoopGoals& goals);
 
 /// The plants of RobustConstraints. Every loop but those of motor_locked must be stable, and

@@ -150,9 +150,10 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
 
 double static_encoder_error(const control::Controller& controller, double demand,
                             double gear_ratio) {
-  const double error = std::abs(demand) / control::static_encoder_gain(controller);
-  const auto integral = control::conditional_integral(controller);
-  return (integral ? std::min(error, integral->width) : error) / gear_ratio;
+  if (const auto integral = control::conditional_integral(controller)) {
+    return integral->width / gear_ratio;
+  }
+  return std::abs(demand) / control::static_encoder_gain(controller) / gear_ratio;
 }
 
 NormalisedConstraint static_error_constraint(const control::Controller& controller, double demand,
@@ -161,6 +162,8 @@ NormalisedConstraint static_error_constraint(const control::Controller& controll
   goal.kind = GoalKind::static_encoder_error;
   goal.ratio =
       static_encoder_error(controller, demand, gear_ratio) / std::max(limit, least_static_error);
+  // A width is not searched.
+  if (controller.structure.has_conditional_integral()) return goal;
   std::size_t k = 0;
   for (const auto& block : controller.structure.blocks()) {
     const bool in_loop =

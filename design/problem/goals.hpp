@@ -114,7 +114,8 @@ void append_normalised_constraints(const control::LoopEvaluation& evaluation,
                                    const Constraints& goals, const MeanWindLoad& mean,
                                    std::vector<NormalisedConstraint>& ratios);
 /// Encoder error (rad at the sky) that a leakage flow (MeanWindLoad::demand) leaves at rest: over
-/// control::static_encoder_gain and the gear ratio, at most the width of a conditional integral.
+/// control::static_encoder_gain and the gear ratio. Of a conditional integral its width: within it
+/// the integral keeps whatever the last motion left.
 double static_encoder_error(const control::Controller& controller, double demand,
                             double gear_ratio);
 /// The ratio of Constraints::static_encoder_error, to that error. A limit below 1e-12 rad counts as

@@ -18,7 +18,8 @@ struct ActiveScenarios {
 };
 
 /// Converts controllers of a structure to points (logarithms of the gains), and back. Gains beyond
-/// the bounds of their descriptions are set to the bound.
+/// the bounds of their descriptions are set to the bound, the width of a conditional integral to
+/// the middle of its bounds.
 std::vector<double> log_gains(const control::Controller& controller);
 control::Controller controller_at(const control::LoopStructure& structure,
                                   const std::vector<double>& point);

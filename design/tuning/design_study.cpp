@@ -11,6 +11,7 @@
 #include <boresight/design/problem/mean_wind_load.hpp>
 #include <boresight/design/tuning/design_study.hpp>
 #include <boresight/design/tuning/plant_evaluator.hpp>
+#include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/antenna/point_response.hpp>
@@ -120,7 +121,7 @@ std::string missed_standstill(const TrackingProblem& problem, const control::Con
     const double friction = standstill.friction[i];
     plant.drive.viscous_friction = friction;
     if (!standstill.amplitude.empty()) {
-      control::set_linear_equivalent(controller, standstill.amplitude.at(i), linear);
+      linear = control::linear_equivalent(controller, standstill.amplitude.at(i));
     }
     if (!control::stability(plant, linear, problem.delay, frequency).stable()) {
       return fmt::format("not stable at standstill, with a friction of {:.3g} N.m.s/rad", friction);
@@ -151,10 +152,9 @@ std::string missed_absolute_stability(const TrackingProblem& problem,
       frequency);
   if (proof.proven) return {};
   return fmt::format(
-      "not proven stable for every error with a dead zone or freeze: Popov's line is passed by "
-      "{:.3g} "
-      "at {:.3g} rad/s",
-      -proof.distance, proof.frequency);
+      "not proven stable for every error of the integral with a dead zone or freeze: 1 + Re (1 + j "
+      "w q) L falls to {:.3g} at {:.3g} Hz",
+      proof.distance, proof.frequency / two_pi);
 }
 
 }  // namespace
@@ -165,6 +165,7 @@ Verification verify(const TrackingProblem& problem, const control::Controller& c
   const TrackingProblem whole = without_band_limits(problem);
   control::LoopEvaluator evaluator = make_evaluator(whole);
   verification.spectral_rms = std::sqrt(evaluator.evaluate(controller, false).boresight_variance());
+  std::string not_absolute;
   try {
     verification.stability = control::stability(problem.plant, controller, problem.delay,
                                                 evaluator.response().frequency);
@@ -175,6 +176,9 @@ Verification verify(const TrackingProblem& problem, const control::Controller& c
     }
     verification.lyapunov = control::lyapunov_rms(problem.plant, controller, problem.delay,
                                                   fit_wind_filter(problem), whole.noise);
+    if (controller.structure.has_conditional_integral()) {
+      not_absolute = missed_absolute_stability(problem, controller, evaluator.response().frequency);
+    }
   } catch (const NumericalFailure& error) {
     verification.failure = error.what();
     return verification;
@@ -206,11 +210,7 @@ Verification verify(const TrackingProblem& problem, const control::Controller& c
         missed_standstill(problem, controller, *goals.standstill, evaluator.response().frequency);
     if (!missed.empty()) verification.failure = missed;
   }
-  if (controller.structure.has_conditional_integral()) {
-    const std::string missed =
-        missed_absolute_stability(problem, controller, evaluator.response().frequency);
-    if (!missed.empty()) verification.failure = missed;
-  }
+  if (!not_absolute.empty()) verification.failure = not_absolute;
   if (!(verification.rms_disagreement < 0.005)) {
     verification.failure = fmt::format("Lyapunov and spectral rms are {:.2g} % apart",
                                        100.0 * verification.rms_disagreement);

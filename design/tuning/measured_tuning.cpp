@@ -219,6 +219,12 @@ control::LoopEvaluator make_evaluator(const MeasuredProblem& problem) {
 MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStructure& structure,
                           const MeasuredConstraints& goals, const MeasuredTuningOptions& options) {
   check(problem, goals, options);
+  if (structure.has_conditional_integral()) {
+    throw InvalidInput(fmt::format(
+        "tune on a measured response: expected a linear structure, found {}, of which a measured "
+        "response cannot prove that it is stable for every error",
+        structure.name()));
+  }
   MeasuredTuningResult result;
   result.controller.structure = structure;
   result.confidence = problem.channels.has_covariance() ? options.confidence : 0.0;

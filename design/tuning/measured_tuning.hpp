@@ -137,7 +137,8 @@ control::LoopEvaluator make_evaluator(const MeasuredProblem& problem);
 /// refined on the problem's own grid. The least favourable responses within the confidence region
 /// (control::least_favourable at each break) then become members that must meet the peak limits.
 /// They are updated until the controller no longer changes them. Deterministic by seed.
-/// @throws InvalidInput for options below 1, limits that are not above 1 (effort: above 0), or a
+/// @throws InvalidInput for a conditional integral, options below 1, limits that are not above 1
+/// (effort: above 0), or a
 /// confidence outside 0 to 1.
 MeasuredTuningResult tune(const MeasuredProblem& problem, const control::LoopStructure& structure,
                           const MeasuredConstraints& goals,

@@ -96,9 +96,9 @@ bool PlantEvaluator::stable_by_eigenvalues(const control::Controller& controller
     return control::stability(plant_, linear, delay_, frequency_).stable();
   };
   if (!controller.structure.has_conditional_integral()) return is_stable(controller);
-  control::Controller linear = controller;
-  if (amplitude_ > 0.0) control::set_linear_equivalent(controller, amplitude_, linear);
-  return is_stable(linear) && is_stable(control::without_conditional_integral(controller));
+  const bool standing = amplitude_ > 0.0;
+  return is_stable(standing ? control::linear_equivalent(controller, amplitude_) : controller) &&
+         is_stable(control::without_conditional_integral(controller));
 }
 
 void append_standstill(const TrackingProblem& problem, const Constraints& goals,

@@ -163,7 +163,8 @@ TEST(Verification, RefusesADeadZoneThatHidesAnUnstableLoop) {
   EXPECT_EQ(assess(problem, conditional(20.0), goals).tuning.status, TuningStatus::unstable);
 }
 
-TEST(StaticEncoderError, IsAtMostTheWidthOfAConditionalIntegral) {
+// Within the width the integral keeps what the last motion left.
+TEST(StaticEncoderError, IsTheWidthOfAConditionalIntegral) {
   const TrackingProblem problem = reference::tracking_problem();
   Controller controller = conditional(0.02);
   const double held =
@@ -173,8 +174,10 @@ TEST(StaticEncoderError, IsAtMostTheWidthOfAConditionalIntegral) {
   while (controller.structure.gains().at(k).symbol != "dzp") ++k;
   for (const double factor : {0.5, 2.0}) {
     controller.gains[k] = factor * held * problem.gear_ratio;
-    EXPECT_NEAR(static_encoder_error(problem, controller), std::min(1.0, factor) * held,
-                1e-12 * held);
+    EXPECT_NEAR(static_encoder_error(problem, controller), factor * held, 1e-12 * held);
+    const auto ratio = static_error_constraint(controller, 1.0, problem.gear_ratio, held);
+    EXPECT_NEAR(ratio.ratio, factor, 1e-12);
+    for (const double slope : ratio.log_gradient) EXPECT_EQ(slope, 0.0);
   }
 }
 

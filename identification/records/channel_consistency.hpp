@@ -22,8 +22,8 @@ enum class ChannelQuantity {
 std::string to_string(ChannelQuantity quantity);
 
 enum class ChannelVerdict {
-  right,           // 1 (of a zero or delay: 0) lies within the interval and the allowed difference
-  suspect,         // it does not
+  right,           // 1 (of a zero or delay: 0) is within `suspect_beyond` standard uncertainties
+  suspect,         // it is not
   undeterminable,  // these records do not bound the quantity
 };
 /// "right", "suspect", "undeterminable".
@@ -56,6 +56,11 @@ struct ChannelCheck {
   /// The channel's own values enter the methods: false where they are replaced by other motors'.
   bool is_used = true;
 };
+
+/// Whether no value from records with this row can be recommended: a suspect quantity of a channel
+/// whose values are used. Not the tachometer's sign, which is the encoder's, as a reversed
+/// tachometer is refused by the torque, nor its zero and delay, which the grey box fits.
+bool contradicts(const ChannelCheck& check);
 
 struct ChannelConsistencyOptions {
   /// Standard uncertainties, of estimate and stated accuracy together, from which a quantity is

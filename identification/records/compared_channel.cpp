@@ -54,6 +54,15 @@ LikelyFactor likely_factor(const ComparedQuantity& gain, bool pressure) {
   return found;
 }
 
+// Standard error that a normal estimate would have to lie as far out as often as this one, by
+// Student's t, at the limits that are asked of it.
+double as_normal(const ComparedQuantity& one) {
+  constexpr double sigmas = 3.5, tail = 2.326e-4;
+  if (!std::isfinite(one.standard_error)) return one.standard_error;
+  return one.standard_error * numerics::student_quantile(1.0 - tail, one.degrees_of_freedom) /
+         sigmas;
+}
+
 // Where the others' zeros lie the channel shows what the other port of its motor does.
 bool shows_the_other_port(const Quantities& found) {
   const auto zero = std::ranges::find(found, ChannelQuantity::zero, &ComparedQuantity::quantity);
@@ -112,7 +121,7 @@ std::vector<std::size_t> unlike_others(const std::vector<std::size_t>& places,
       const ComparedQuantity& one = found[q];
       if (!one.is_determined() ||
           std::abs(one.value - usual) <=
-              options.suspect_beyond * std::hypot(one.standard_error, one.own_stated)) {
+              options.suspect_beyond * std::hypot(as_normal(one), one.own_stated)) {
         continue;
       }
       if (std::ranges::find(unlike, place) == unlike.end()) unlike.push_back(place);
@@ -151,13 +160,19 @@ std::string to_string(ChannelVerdict verdict) {
   return "undeterminable";
 }
 
+bool contradicts(const ChannelCheck& check) {
+  return check.verdict == ChannelVerdict::suspect && check.is_used &&
+         (check.channel != ChannelCheck::Channel::tachometer ||
+          check.quantity == ChannelQuantity::gain);
+}
+
 bool ComparedQuantity::is_determined() const {
   return std::isfinite(standard_error) &&
          numerics::student_quantile(0.975, degrees_of_freedom) * standard_error <= widest;
 }
 
 double ComparedQuantity::departure() const {
-  return std::abs(value - expected(quantity)) / std::hypot(standard_error, stated);
+  return std::abs(value - expected(quantity)) / std::hypot(as_normal(*this), stated);
 }
 
 std::vector<ChannelCheck> checked_channel(const ChannelCheck& row,

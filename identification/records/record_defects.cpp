@@ -153,10 +153,10 @@ class Cleaner {
     return finite_median(channel.values) < -0.1 * largest;
   }
 
-  // Clipping is for extremes: beyond the range most of the time is another unit or scale.
-  bool is_beyond_range(const RawChannel& channel) const {
-    const double limit = (1.0 - options_.limit_tolerance) * channel.upper_limit;
-    return 2 * (channel.values.array() >= limit).count() > channel.values.size();
+  // A recorder that clips shows no value beyond its range: that is another unit or scale.
+  static bool is_beyond_range(const RawChannel& channel) {
+    constexpr double clearly = 1.05;
+    return finite_median(channel.values) > clearly * channel.upper_limit;
   }
 
   void find_dead_pressures() {
@@ -177,8 +177,7 @@ class Cleaner {
         } else if (spread(channel.values) < options_.dead_fraction * usual) {
           because(DefectKind::dead_channel, "hardly moves while others do", "");
         } else if (is_beyond_range(channel)) {
-          because(DefectKind::wrong_scale,
-                  "more than half of it is at or beyond the transducer's range",
+          because(DefectKind::wrong_scale, "more than half of it is beyond the transducer's range",
                   "; check its unit and scale");
         } else if (is_reversed(channel)) {
           because(DefectKind::reversed_sign, "a pressure below zero most of the time",

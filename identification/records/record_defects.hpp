@@ -140,12 +140,12 @@ void mask_replaced(CleanRecord& clean);
 /// differences off both sides are a spike: masked. A dead pressure is replaced by the mean of the
 /// others at the same common line, valid where they all are: the sum over the motors is what
 /// counts. In a slosh test it is masked (mask_replaced). A pressure far below zero most of the
-/// time, which no oil has, counts as dead, and so does one that is at or beyond its stated limit in
-/// more than half of the record: its scale is wrong. Commands are taken as they are but for missing
-/// samples; one that stands at one value while the drive moves by it (a valve command, or the rate
-/// command of a closed rate loop) is left out, and so is an encoder that stands still then. Other
-/// swapped or reversed channels are reported (ColumnSuspicions) and never turned: what is to be
-/// done is for the campaign as a whole to say, column_conflicts.
+/// time, which no oil has, counts as dead, and so does one that is clearly beyond its stated limit
+/// in more than half of the record: its scale is wrong. Commands are taken as they are but for
+/// missing samples; one that stands at one value while the drive moves by it (a valve command, or
+/// the rate command of a closed rate loop) is left out, and so is an encoder that stands still
+/// then. Other swapped or reversed channels are reported (ColumnSuspicions) and never turned: what
+/// is to be done is for the campaign as a whole to say, column_conflicts.
 ///
 /// Refused: too short, more than half of the samples of the tachometer (but in a slosh test) or of
 /// all inlets or all outlets missing or dead, times of which more than one in twenty cannot be

@@ -59,6 +59,15 @@ bool is_same_finding(const ChannelCheck& a, const ChannelCheck& b) {
          b.likely && !a.likely->name.empty() && a.likely->name == b.likely->name;
 }
 
+std::string_view what_to_do(const ChannelCheck& one) {
+  if (!one.is_used) return "not used, the other motors' stand for it";
+  if (identification::contradicts(one)) return "check the transducer or its scale in the case";
+  if (one.quantity == ChannelQuantity::sign) {
+    return "turn the encoder's sign (record_columns.reversed)";
+  }
+  return "no value depends on it";
+}
+
 }  // namespace
 
 std::string departure_of(const ChannelCheck& check) {
@@ -74,22 +83,21 @@ std::string departure_of(const ChannelCheck& check) {
   return fmt::format(
       "{} {} ({} to {}) {} the {}, stated to {:.2g} {}",
       significant(std::abs(interval.value) * unit.scale), unit.name,
-      significant(interval.lower * unit.scale), significant(interval.upper * unit.scale),
+      significant((interval.value < 0.0 ? -interval.upper : interval.lower) * unit.scale),
+      significant((interval.value < 0.0 ? -interval.lower : interval.upper) * unit.scale),
       check.quantity == ChannelQuantity::delay ? (interval.value < 0.0 ? "ahead of" : "behind")
                                                : (interval.value < 0.0 ? "below" : "above"),
       check.against, check.stated_uncertainty * unit.scale, unit.name);
 }
 
 bool channels_contradict(const CampaignSection& section) {
-  return std::ranges::any_of(section.channels, [](const ChannelCheck& one) {
-    return one.verdict == ChannelVerdict::suspect && one.is_used;
-  });
+  return std::ranges::any_of(section.channels, identification::contradicts);
 }
 
 std::string channel_contradiction(const CampaignSection& section) {
   std::string text;
   for (const ChannelCheck* one : primary(section)) {
-    if (!one->is_used) continue;
+    if (!identification::contradicts(*one)) continue;
     text += fmt::format("{}{}{} is {}", text.empty() ? "" : "; ", one->name,
                         one->record.empty() ? "" : " in record '" + one->record + "'",
                         departure_of(*one));
@@ -125,10 +133,7 @@ std::vector<ChannelSuspicion> channel_suspicions(const CampaignSection& section)
                               ? "factor "
                               : "",
                           one->likely->name);
-    suspicion.explanation =
-        fmt::format("{}{}: {}", departure_of(*one), likely,
-                    one->is_used ? "check the transducer or its scale in the case"
-                                 : "not used, the other motors' stand for it");
+    suspicion.explanation = fmt::format("{}{}: {}", departure_of(*one), likely, what_to_do(*one));
     first.push_back(one);
     found.push_back(std::move(suspicion));
   }

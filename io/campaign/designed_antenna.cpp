@@ -43,14 +43,14 @@ design::EnsembleMember slewing_member(const design::Mission& mission) {
 
 DesignedAntenna designed_antenna(const Case& stated, const std::optional<CampaignSection>& campaign,
                                  std::uint64_t seed) {
+  if (campaign && rejection(*campaign) == Rejection::channels_contradict) {
+    throw NumericalFailure(fmt::format("{}: {}", stated.path, channel_contradiction(*campaign)));
+  }
   if (!campaign || !campaign->grey_box) {
     design::Mission mission = mission_of(stated);
     design::PlantEnsemble ensemble{design::EnsembleSource::ranges, plant_members(mission, seed)};
     auto distribution = design::PlantDistribution::of_ranges(mission);
     return {stated, std::move(mission), std::move(ensemble), std::move(distribution), {}, false};
-  }
-  if (rejection(*campaign) == Rejection::channels_contradict) {
-    throw NumericalFailure(fmt::format("{}: {}", stated.path, channel_contradiction(*campaign)));
   }
   // As many as the reference ensemble has.
   constexpr std::size_t members = 30;

@@ -151,8 +151,8 @@ void add_contradicted(const CampaignSection& section, std::vector<ChannelSuspici
 }  // namespace
 
 Rejection rejection(const CampaignSection& section) {
-  if (!section.grey_box) return Rejection::fit_failed;
   if (channels_contradict(section)) return Rejection::channels_contradict;
+  if (!section.grey_box) return Rejection::fit_failed;
   return section.grey_box->estimate.contradicted || section.grey_box->conflict.widening > 1.0
              ? Rejection::contradicts_case
              : Rejection::none;

@@ -73,7 +73,7 @@ ChosenColumns choose_columns(const RecordTable& table, const RecordColumnsEntry&
   chosen.valve_command = command(entry.valve_command, is_valve);
   if (!chooser.lacks(entry.encoder, chosen.remarks)) {
     chosen.encoder = entry.encoder ? std::optional(chooser.named(*entry.encoder))
-                                   : guessed_encoder(chooser, axis);
+                                   : encoder_by_name(chooser, axis);
   }
   return chosen;
 }

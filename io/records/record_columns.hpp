@@ -27,7 +27,7 @@ struct ChosenColumns {
 /// a motor's number and in, inlet, a, or out, outlet, b ("p1_in", "PressIn1", "Motor 2 outlet");
 /// the tachometer from tach, or speed or rate without a word for command; commands from rate, speed
 /// or velocity, or valve or servo, with command, cmd, reference, setpoint or demand (valve alone
-/// will do); the time from time or t; the encoder as guessed_encoder. A column of another kind of
+/// will do); the time from time or t; the encoder as encoder_by_name. A column of another kind of
 /// unit is not guessed, one without a known unit only if none has one that fits, and nothing that
 /// two columns could be. A command or encoder that the case names may be missing in a file: see
 /// remarks. `axis`: the case's.

@@ -49,7 +49,7 @@ void expect_continuous(const identification::DriveRecord& record) {
 }
 
 TEST(CampaignEncoder, IsInferredByTheWordsOfServoRecordsAndContinuous) {
-  for (const char* header : {"Encoder [deg]", "AZ position [deg]", "az [deg]", "actual [deg]"}) {
+  for (const char* header : {"Encoder [deg]", "AZ encoder [deg]", "enc [deg]"}) {
     OneRecord record = with_encoder(header);
     const auto made = record.make().records.at(0);
     expect_continuous(made);
@@ -59,8 +59,9 @@ TEST(CampaignEncoder, IsInferredByTheWordsOfServoRecordsAndContinuous) {
 }
 
 TEST(CampaignEncoder, IsNotInferredFromAnotherAxisCommandOrKind) {
-  for (const char* header : {"el encoder [deg]", "position command [deg]", "encoder [V]",
-                             "position error [deg]", "wind angle [deg]"}) {
+  for (const char* header :
+       {"el encoder [deg]", "position command [deg]", "encoder [V]", "position error [deg]",
+        "wind angle [deg]", "AZ position [deg]", "motor encoder [deg]"}) {
     OneRecord record = with_encoder(header);
     EXPECT_FALSE(record.make().records.at(0).encoder) << header;
     EXPECT_EQ(record.notes.records[0].unused_columns.size(), 1U) << header;

@@ -13,8 +13,8 @@ Document document_of(const std::vector<identification::ChannelCheck>& channels) 
   if (channels.empty()) return {};
   Document text = heading("Channels against one another");
   std::vector<std::vector<std::string>> rows{{"channel", "record", "quantity", "value",
-                                              "95 % interval", "stated +-", "against", "verdict",
-                                              "likely"}};
+                                              "95 % interval", "stated 1 sigma", "against",
+                                              "verdict", "likely"}};
   for (const auto& one : channels) {
     const auto unit = io::shown_unit(one.unit);
     std::string likely;
@@ -33,8 +33,8 @@ Document document_of(const std::vector<identification::ChannelCheck>& channels) 
   text += table(rows, "lllrrrlll");
   return text + wrapped(
                     "Value: what the channel's gain (1 if right), zero and delay must be for what "
-                    "it is compared with to be right. Suspect: the interval with the stated "
-                    "accuracy of both excludes 1 or 0.",
+                    "it is compared with to be right. Suspect: more than 3.5 standard "
+                    "uncertainties, estimate and stated accuracy together, from 1 or 0.",
                     "  ");
 }
 

@@ -254,7 +254,9 @@ void describe_channel(Visitor& v, const identification::ChannelCheck& one) {
            "1 sigma by the stated accuracy of the channel and of what it is compared with.");
   v.text("against", one.against, "Compared with.");
   v.word("verdict", to_string(one.verdict), {"right", "suspect", "undeterminable"},
-         "Suspect: the interval with the stated accuracy excludes 1 (0 of a zero or delay).");
+         "Suspect: more than 3.5 standard uncertainties, estimate and stated accuracy together, "
+         "from 1 "
+         "(0 of a zero or delay).");
   v.optional_group("likely", one.likely, "The likely reason of a gain that is suspect; else null.",
                    [&](const identification::LikelyFactor& likely) {
                      v.number("factor", likely.factor, unit::ratio, "Recorded over true.");

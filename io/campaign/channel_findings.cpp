@@ -14,7 +14,6 @@ namespace {
 using identification::ChannelCheck;
 using identification::ChannelQuantity;
 using identification::ChannelVerdict;
-using Channel = ChannelCheck::Channel;
 
 bool is_gain(const ChannelCheck& one) {
   return one.quantity == ChannelQuantity::gain || one.quantity == ChannelQuantity::sign;
@@ -24,8 +23,9 @@ bool is_gain(const ChannelCheck& one) {
 bool follows_from(const ChannelCheck& one, const ChannelCheck& other) {
   if (other.verdict != ChannelVerdict::suspect) return false;
   if (!other.record.empty() && other.record != one.record) return false;
-  if (one.channel == Channel::torque) {
-    const bool pressure = other.channel == Channel::inlet || other.channel == Channel::outlet;
+  if (one.channel == ChannelCheck::Channel::torque) {
+    const bool pressure = other.channel == ChannelCheck::Channel::inlet ||
+                          other.channel == ChannelCheck::Channel::outlet;
     if (pressure && other.motor == one.motor) return true;
   }
   return !is_gain(one) && is_gain(other) && other.channel == one.channel &&

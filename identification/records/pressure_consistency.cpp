@@ -65,7 +65,7 @@ BlockMeans block_means(const RawRecord& raw, const std::vector<Eigen::VectorXd>&
   std::vector<bool> present;
   for (const auto& channel : channels) {
     present.push_back(is_present(channel, samples));
-    means.channels.push_back(Eigen::VectorXd::Constant(count, not_recorded));
+    means.channels.emplace_back(Eigen::VectorXd::Constant(count, not_recorded));
   }
   means.rate = Eigen::VectorXd::Zero(count);
   means.acceleration = Eigen::VectorXd::Zero(count);

@@ -45,7 +45,7 @@ double encoder_step(const plant::Antenna& antenna) {
 std::vector<double> standstill_friction(const plant::Antenna& antenna) {
   const double step = step_of_motor(antenna);
   if (!(step > 0.0)) return {};
-  const double rate = 0.5 * step * standstill_frequency(antenna);
+  const double rate = 0.5 * step * sixth * two_pi * hydraulic_frequency(antenna);
   const double friction = plant::equivalent_friction(antenna.friction_curve, rate);
   std::vector<double> slopes;
   for (const double part : {sixth, 2.0 * sixth, 1.0}) {

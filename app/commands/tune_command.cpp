@@ -185,8 +185,8 @@ Subcommand add_tune(CLI::App& program) {
          "loop structures to tune, one or several: PI-0 (PI without lag), PI (PI with "
          "lag), DPF (PI with lag and pressure feedback), LL (PI with lead and lag), FULL "
          "(PI with lead, lag and pressure feedback), with suffixes +L (position lag instead "
-         "of the integrals), +D or +F (one integral, with a dead zone or frozen within an "
-         "error), +N (notch) and +C (compliance compensation), or a [[loop]] of the case; also SS "
+         "of the integrals), +D (dead zone of one integral) or +F (freeze of one integral), "
+         "+N (notch) and +C (compliance compensation), or a [[loop]] of the case; also SS "
          "(a state space, designed "
          "from the best of the others, alone from the best of the structures of the case); see "
          "docs/control-structures.md")

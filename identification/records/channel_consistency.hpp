@@ -57,11 +57,6 @@ struct ChannelCheck {
   bool is_used = true;
 };
 
-/// Whether no value from records with this row can be recommended: a suspect quantity of a channel
-/// whose values are used. Not the tachometer's sign, which is the encoder's, as a reversed
-/// tachometer is refused by the torque, nor its zero and delay, which the grey box fits.
-bool contradicts(const ChannelCheck& check);
-
 struct ChannelConsistencyOptions {
   /// Standard uncertainties, of estimate and stated accuracy together, from which a quantity is
   /// suspect: of the some 25 quantities of a campaign without faults one is beyond it in about one

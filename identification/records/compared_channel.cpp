@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <string_view>
 
@@ -54,20 +55,12 @@ LikelyFactor likely_factor(const ComparedQuantity& gain, bool pressure) {
   return found;
 }
 
-// Standard error that a normal estimate would have to lie as far out as often as this one, by
-// Student's t, at the limits that are asked of it.
-double as_normal(const ComparedQuantity& one) {
-  constexpr double sigmas = 3.5, tail = 2.326e-4;
-  if (!std::isfinite(one.standard_error)) return one.standard_error;
-  return one.standard_error * numerics::student_quantile(1.0 - tail, one.degrees_of_freedom) /
-         sigmas;
-}
-
 // Where the others' zeros lie the channel shows what the other port of its motor does.
-bool shows_the_other_port(const Quantities& found) {
+bool shows_the_other_port(const Quantities& found, const ChannelConsistencyOptions& options) {
+  constexpr double certain = 10.0;
   const auto zero = std::ranges::find(found, ChannelQuantity::zero, &ComparedQuantity::quantity);
   return found.front().value < 0.0 && zero != found.end() && zero->value > 0.0 &&
-         zero->departure() > 10.0;
+         zero->departure(options.suspect_beyond) > certain;
 }
 
 ChannelCheck row_of(const ChannelCheck& common, const Quantities& all, const ComparedQuantity& one,
@@ -84,11 +77,11 @@ ChannelCheck row_of(const ChannelCheck& common, const Quantities& all, const Com
   if (is_gain && row.interval->upper < 0.0) row.quantity = ChannelQuantity::sign;
   const double target = expected(one.quantity);
   const bool excluded = target < row.interval->lower || target > row.interval->upper;
-  if (excluded && one.departure() > options.suspect_beyond) {
+  if (excluded && one.departure(options.suspect_beyond) > options.suspect_beyond) {
     row.verdict = ChannelVerdict::suspect;
     if (is_gain) {
       row.likely = likely_factor(one, is_pressure(row.channel));
-      if (is_pressure(row.channel) && shows_the_other_port(all)) {
+      if (is_pressure(row.channel) && shows_the_other_port(all, options)) {
         row.likely = LikelyFactor{-1.0, "exchanged ports"};
       }
     }
@@ -121,7 +114,8 @@ std::vector<std::size_t> unlike_others(const std::vector<std::size_t>& places,
       const ComparedQuantity& one = found[q];
       if (!one.is_determined() ||
           std::abs(one.value - usual) <=
-              options.suspect_beyond * std::hypot(as_normal(one), one.own_stated)) {
+              options.suspect_beyond *
+                  std::hypot(one.normal_error(options.suspect_beyond), one.own_stated)) {
         continue;
       }
       if (std::ranges::find(unlike, place) == unlike.end()) unlike.push_back(place);
@@ -160,19 +154,18 @@ std::string to_string(ChannelVerdict verdict) {
   return "undeterminable";
 }
 
-bool contradicts(const ChannelCheck& check) {
-  return check.verdict == ChannelVerdict::suspect && check.is_used &&
-         (check.channel != ChannelCheck::Channel::tachometer ||
-          check.quantity == ChannelQuantity::gain);
-}
-
 bool ComparedQuantity::is_determined() const {
   return std::isfinite(standard_error) &&
          numerics::student_quantile(0.975, degrees_of_freedom) * standard_error <= widest;
 }
 
-double ComparedQuantity::departure() const {
-  return std::abs(value - expected(quantity)) / std::hypot(as_normal(*this), stated);
+double ComparedQuantity::normal_error(double sigmas) const {
+  const double tail = 0.5 * std::erfc(sigmas / std::numbers::sqrt2);
+  return standard_error * numerics::student_quantile(1.0 - tail, degrees_of_freedom) / sigmas;
+}
+
+double ComparedQuantity::departure(double sigmas) const {
+  return std::abs(value - expected(quantity)) / std::hypot(normal_error(sigmas), stated);
 }
 
 std::vector<ChannelCheck> checked_channel(const ChannelCheck& row,

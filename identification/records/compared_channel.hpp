@@ -22,8 +22,12 @@ struct ComparedQuantity {
   double own_stated = 0.0;
   double widest = 0.0;  // half width from which it is not determined
   bool is_determined() const;
-  /// Distance from what it should be, in standard uncertainties of estimate and accuracy.
-  double departure() const;
+  /// Standard error that a normal estimate would need to be `sigmas` of it off as seldom as this
+  /// one, which has Student's t distribution, is off by that much.
+  double normal_error(double sigmas) const;
+  /// Distance from what it should be, in standard uncertainties of estimate and accuracy, for
+  /// comparison with a limit of `sigmas`.
+  double departure(double sigmas) const;
 };
 
 /// A channel by a selection of records (their places): its gain first, then the others. Empty:

@@ -156,8 +156,9 @@ class Siblings {
       std::optional<std::size_t> suspect;
       for (const std::size_t motor : motors) {
         for (const ComparedQuantity& one : compare(motor, motors, places)) {
-          if (!(one.departure() > furthest)) continue;
-          furthest = one.departure();
+          const double departure = one.departure(options_.suspect_beyond);
+          if (!(departure > furthest)) continue;
+          furthest = departure;
           suspect = motor;
         }
       }

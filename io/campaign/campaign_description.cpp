@@ -255,8 +255,7 @@ void describe_channel(Visitor& v, const identification::ChannelCheck& one) {
   v.text("against", one.against, "Compared with.");
   v.word("verdict", to_string(one.verdict), {"right", "suspect", "undeterminable"},
          "Suspect: more than 3.5 standard uncertainties, estimate and stated accuracy together, "
-         "from 1 "
-         "(0 of a zero or delay).");
+         "from 1 (0 of a zero or delay).");
   v.optional_group("likely", one.likely, "The likely reason of a gain that is suspect; else null.",
                    [&](const identification::LikelyFactor& likely) {
                      v.number("factor", likely.factor, unit::ratio, "Recorded over true.");

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/identification/records/suspect_channels.hpp>
 #include <boresight/io/campaign/campaign_wording.hpp>
 #include <boresight/io/campaign/channel_findings.hpp>
 
@@ -13,50 +14,26 @@ namespace {
 
 using identification::ChannelCheck;
 using identification::ChannelQuantity;
-using identification::ChannelVerdict;
-
-bool is_gain(const ChannelCheck& one) {
-  return one.quantity == ChannelQuantity::gain || one.quantity == ChannelQuantity::sign;
-}
-
-// Whether another row that is suspect explains this one.
-bool follows_from(const ChannelCheck& one, const ChannelCheck& other) {
-  if (other.verdict != ChannelVerdict::suspect) return false;
-  if (!other.record.empty() && other.record != one.record) return false;
-  if (one.channel == ChannelCheck::Channel::torque) {
-    const bool pressure = other.channel == ChannelCheck::Channel::inlet ||
-                          other.channel == ChannelCheck::Channel::outlet;
-    if (pressure && other.motor == one.motor) return true;
-  }
-  return !is_gain(one) && is_gain(other) && other.channel == one.channel &&
-         other.motor == one.motor;
-}
-
-// Suspect rows that no other explains.
-std::vector<const ChannelCheck*> primary(const CampaignSection& section) {
-  std::vector<const ChannelCheck*> found;
-  for (const ChannelCheck& one : section.channels) {
-    if (one.verdict != ChannelVerdict::suspect) continue;
-    const bool follows = std::ranges::any_of(
-        section.channels, [&](const ChannelCheck& other) { return follows_from(one, other); });
-    if (!follows) found.push_back(&one);
-  }
-  return found;
-}
 
 std::vector<std::string> compared_records(const CampaignSection& section, const ChannelCheck& one) {
   if (!one.record.empty()) return {one.record};
+  const bool by_encoder = one.channel == ChannelCheck::Channel::tachometer;
   std::vector<std::string> names;
   for (const RecordNotes& record : section.notes.records) {
-    if (record.test != identification::TestKind::slosh) names.push_back(record.name);
+    const bool compared =
+        !by_encoder ||
+        std::ranges::find(record.sources, "encoder", &SignalSource::signal) != record.sources.end();
+    if (compared && record.test != identification::TestKind::slosh) names.push_back(record.name);
   }
   return names;
 }
 
-// "p1_in", "p1_out" of one motor with the same factor are one finding.
-bool is_same_finding(const ChannelCheck& a, const ChannelCheck& b) {
-  return a.motor == b.motor && a.quantity == b.quantity && a.record == b.record && a.likely &&
-         b.likely && !a.likely->name.empty() && a.likely->name == b.likely->name;
+std::string likely_text(const ChannelCheck& one) {
+  if (!one.likely) return "";
+  const std::string& name = one.likely->name;
+  if (name.empty()) return fmt::format(", likely factor {:.3g}", one.likely->factor);
+  const bool number = name.find_first_not_of("0123456789./") == std::string::npos;
+  return fmt::format(", likely {}{}", number ? "factor " : "", name);
 }
 
 std::string_view what_to_do(const ChannelCheck& one) {
@@ -73,7 +50,7 @@ std::string_view what_to_do(const ChannelCheck& one) {
 std::string departure_of(const ChannelCheck& check) {
   if (!check.interval) return "not determined";
   const auto& interval = *check.interval;
-  if (is_gain(check)) {
+  if (identification::is_gain(check)) {
     return fmt::format("{} times ({} to {}) the {}, stated to {:.2g} %",
                        significant(interval.value), significant(interval.lower),
                        significant(interval.upper), check.against,
@@ -96,11 +73,12 @@ bool channels_contradict(const CampaignSection& section) {
 
 std::string channel_contradiction(const CampaignSection& section) {
   std::string text;
-  for (const ChannelCheck* one : primary(section)) {
-    if (!identification::contradicts(*one)) continue;
-    text += fmt::format("{}{}{} is {}", text.empty() ? "" : "; ", one->name,
-                        one->record.empty() ? "" : " in record '" + one->record + "'",
-                        departure_of(*one));
+  for (const std::size_t place : identification::unexplained_suspects(section.channels)) {
+    const ChannelCheck& one = section.channels[place];
+    if (!identification::contradicts(one)) continue;
+    text +=
+        fmt::format("{}{}{} is {}", text.empty() ? "" : "; ", one.name,
+                    one.record.empty() ? "" : " in record '" + one.record + "'", departure_of(one));
   }
   if (text.empty()) return text;
   return fmt::format(
@@ -112,29 +90,23 @@ std::string channel_contradiction(const CampaignSection& section) {
 std::vector<ChannelSuspicion> channel_suspicions(const CampaignSection& section) {
   std::vector<ChannelSuspicion> found;
   std::vector<const ChannelCheck*> first;
-  for (const ChannelCheck* one : primary(section)) {
-    const auto same = std::ranges::find_if(
-        first, [&](const ChannelCheck* other) { return is_same_finding(*other, *one); });
+  for (const std::size_t place : identification::unexplained_suspects(section.channels)) {
+    const ChannelCheck& one = section.channels[place];
+    const auto same = std::ranges::find_if(first, [&one](const ChannelCheck* other) {
+      return identification::is_one_fault(*other, one);
+    });
     if (same != first.end()) {
-      found[static_cast<std::size_t>(same - first.begin())].channels.push_back(one->name);
+      found[static_cast<std::size_t>(same - first.begin())].channels.push_back(one.name);
       continue;
     }
     ChannelSuspicion suspicion;
-    suspicion.finding = fmt::format("suspect {}", to_string(one->quantity));
-    suspicion.records = compared_records(section, *one);
-    suspicion.channels = {one->name};
+    suspicion.finding = fmt::format("suspect {}", to_string(one.quantity));
+    suspicion.records = compared_records(section, one);
+    suspicion.channels = {one.name};
     suspicion.fraction = 1.0;
-    const std::string likely =
-        !one->likely ? ""
-        : one->likely->name.empty()
-            ? fmt::format(", likely factor {:.3g}", one->likely->factor)
-            : fmt::format(", likely {}{}",
-                          one->likely->name.find_first_not_of("0123456789./") == std::string::npos
-                              ? "factor "
-                              : "",
-                          one->likely->name);
-    suspicion.explanation = fmt::format("{}{}: {}", departure_of(*one), likely, what_to_do(*one));
-    first.push_back(one);
+    suspicion.explanation =
+        fmt::format("{}{}: {}", departure_of(one), likely_text(one), what_to_do(one));
+    first.push_back(&one);
     found.push_back(std::move(suspicion));
   }
   return found;

@@ -7,15 +7,13 @@
 
 namespace boresight::io {
 
-/// Whether a channel whose values enter the methods is suspect (identification::ChannelCheck): what
-/// the records say of the drive is then not what the drive is.
+/// Whether a row of the channels contradicts (identification::contradicts).
 bool channels_contradict(const CampaignSection& section);
 
 /// The suspect channels and what to do, a sentence; empty if none that is used is suspect.
 std::string channel_contradiction(const CampaignSection& section);
 
-/// Suspect channels by quantity. A gain that is wrong makes the channel's zero, and a wrong
-/// pressure its motor's torque: these are not listed again.
+/// Suspect channels that no other explains (identification::unexplained_suspects), one a fault.
 std::vector<ChannelSuspicion> channel_suspicions(const CampaignSection& section);
 
 /// What a channel shows against what it is compared with: "1.05 times (1.048 to 1.052) the encoder,

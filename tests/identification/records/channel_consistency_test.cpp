@@ -10,6 +10,7 @@
 #include "identification/prescribed_channels.hpp"
 #include "random_numbers.hpp"
 #include <boresight/identification/records/channel_consistency.hpp>
+#include <boresight/identification/records/suspect_channels.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -60,6 +61,56 @@ TEST(ChannelConsistency, FindsAllRightWhereErrorsStayWithinTheStatedAccuracy) {
     EXPECT_EQ(row_of(rows, "p1_in", Quantity::gain)->verdict, Verdict::right);
     EXPECT_EQ(row_of(rows, "p1_in - p1_out", Quantity::gain)->verdict, Verdict::right);
   }
+}
+
+// Normal errors of the stated accuracy: one campaign in some hundred has a suspect, as documented.
+TEST(ChannelConsistency, SuspectsOneHonestCampaignInSomeHundred) {
+  constexpr int campaigns = 300;
+  reference::RandomNumbers random(21);
+  const numerics::NormalNumbers normals(21, 0);
+  std::uint64_t number = 0;
+  const auto normal = [&] { return normals.pair(number++).real(); };
+  int suspected = 0;
+  for (int trial = 0; trial < campaigns; ++trial) {
+    Drive drive;
+    for (auto* side : {&drive.inlet, &drive.outlet}) {
+      for (auto& errors : *side) {
+        errors = {1.0 + 0.006 * normal(), 2e4 * normal()};
+      }
+    }
+    drive.tachometer_gain = 1.0 + 0.003 * normal();
+    drive.line_loss = random.uniform(0.0, 2e4);
+    const auto rows = Records(drive, 3, 200000 + 10 * static_cast<std::uint64_t>(trial)).check();
+    if (std::ranges::any_of(rows, contradicts)) ++suspected;
+  }
+  EXPECT_LE(suspected, 9);
+}
+
+// Neither says that a value of the drive is wrong: a reversed tachometer is refused by the torque,
+// and the lag of a display is no error of the tachometer.
+TEST(ChannelConsistency, ForbidsNoValueForAReversedOrLateEncoder) {
+  Records reversed(Drive{}, 3, 12);
+  for (std::size_t i = 0; i < 3; ++i) {
+    reversed.clean(i).record->encoder->values *= -1.0;
+    reversed.raw(i).encoder->values *= -1.0;
+  }
+  const auto turned = reversed.check();
+  const ChannelCheck* sign = row_of(turned, "tach", Quantity::sign);
+  ASSERT_NE(sign, nullptr);
+  EXPECT_EQ(sign->verdict, Verdict::suspect);
+  EXPECT_TRUE(std::ranges::none_of(turned, contradicts));
+  Drive drive;
+  drive.tachometer_delay = -0.15;
+  const auto late = Records(drive, 3, 13).check();
+  const ChannelCheck* delay = row_of(late, "tach", Quantity::delay);
+  ASSERT_NE(delay, nullptr);
+  EXPECT_EQ(delay->verdict, Verdict::suspect);
+  EXPECT_NEAR(delay->interval->value, -0.15, 0.01);
+  EXPECT_TRUE(std::ranges::none_of(late, contradicts));
+  drive = {};
+  drive.tachometer_gain = 1.05;
+  const auto wrong = Records(drive, 3, 14).check();
+  EXPECT_EQ(std::ranges::count_if(wrong, contradicts), 1);
 }
 
 struct Coverage {

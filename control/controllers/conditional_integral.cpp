@@ -10,10 +10,6 @@
 namespace boresight::control {
 namespace {
 
-bool is_condition(BlockKind kind) {
-  return kind == BlockKind::dead_zone || kind == BlockKind::freeze;
-}
-
 bool is_position_integral(const LoopBlock& block) {
   return block.path == LoopPath::position && block.kind == BlockKind::integral;
 }
@@ -26,7 +22,7 @@ std::optional<ConditionalIntegral> conditional_integral(const Controller& contro
   ConditionalIntegral integral;
   std::size_t k = 0;
   for (const LoopBlock& block : controller.structure.blocks()) {
-    if (is_condition(block.kind)) {
+    if (is_integral_condition(block.kind)) {
       integral.condition = block.kind;
       integral.width = controller.gains[k];
     }
@@ -82,7 +78,7 @@ Controller without_conditional_integral(const Controller& controller) {
   std::vector<double> gains;
   std::size_t k = 0;
   for (const LoopBlock& block : controller.structure.blocks()) {
-    if (!is_condition(block.kind) && !is_position_integral(block)) {
+    if (!is_integral_condition(block.kind) && !is_position_integral(block)) {
       blocks.push_back(block);
       const auto first = controller.gains.begin() + static_cast<std::ptrdiff_t>(k);
       gains.insert(gains.end(), first, first + static_cast<std::ptrdiff_t>(block.gains.size()));

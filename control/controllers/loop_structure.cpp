@@ -94,13 +94,9 @@ int count_of(const std::vector<LoopBlock>& blocks, LoopPath path, BlockKind kind
   }));
 }
 
-bool is_condition(BlockKind kind) {
-  return kind == BlockKind::dead_zone || kind == BlockKind::freeze;
-}
-
 void check_conditions(const std::string& name, const std::vector<LoopBlock>& blocks) {
   const auto conditions = std::ranges::count_if(
-      blocks, [](const LoopBlock& candidate) { return is_condition(candidate.kind); });
+      blocks, [](const LoopBlock& candidate) { return is_integral_condition(candidate.kind); });
   if (conditions == 0) return;
   const int own = count_of(blocks, LoopPath::position, BlockKind::dead_zone) +
                   count_of(blocks, LoopPath::position, BlockKind::freeze);
@@ -166,7 +162,7 @@ double nearest_power_of_ten(double factor) {
 // By which gain `k` of a block changes with a load that is so much faster and of so much more
 // inertia.
 double gain_factor(const LoopBlock& block, std::size_t k, double faster, double inertia) {
-  if ((block.kind == BlockKind::notch && k > 0) || is_condition(block.kind)) return 1.0;
+  if ((block.kind == BlockKind::notch && k > 0) || is_integral_condition(block.kind)) return 1.0;
   if (block.kind != BlockKind::gain) return faster;
   switch (block.path) {
     case LoopPath::rate:
@@ -196,6 +192,10 @@ std::string_view to_string(BlockKind kind) {
 
 std::size_t gain_count(BlockKind kind) {
   return kind == BlockKind::notch ? 3 : 1;
+}
+
+bool is_integral_condition(BlockKind kind) {
+  return kind == BlockKind::dead_zone || kind == BlockKind::freeze;
 }
 
 LoopStructure::LoopStructure() : LoopStructure(pi_with_lag()) {}
@@ -325,7 +325,7 @@ LoopStructure LoopStructure::with_integral_width(double width) const {
   constexpr double about = 4.0;
   std::vector<LoopBlock> blocks = this->blocks();
   for (LoopBlock& one : blocks) {
-    if (!is_condition(one.kind)) continue;
+    if (!is_integral_condition(one.kind)) continue;
     one.gains.front().lower = width / about;
     one.gains.front().upper = width * about;
   }
@@ -425,7 +425,8 @@ bool LoopStructure::has_integral_action() const {
 }
 
 bool LoopStructure::has_conditional_integral() const {
-  return std::ranges::any_of(blocks(), [](const LoopBlock& one) { return is_condition(one.kind); });
+  return std::ranges::any_of(blocks(),
+                             [](const LoopBlock& one) { return is_integral_condition(one.kind); });
 }
 
 bool LoopStructure::feeds_torque_back() const {

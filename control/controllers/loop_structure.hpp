@@ -34,6 +34,8 @@ enum class BlockKind {
 };
 std::string_view to_string(BlockKind kind);
 std::size_t gain_count(BlockKind kind);
+/// True for dead_zone and freeze, whose gain is a width.
+bool is_integral_condition(BlockKind kind);
 
 /// Name and symbol of a gain, its SI unit, and the bounds of a search.
 struct GainDescription {

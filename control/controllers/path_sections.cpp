@@ -21,11 +21,11 @@ Polynomials polynomials(const LoopBlock& block, const double* g) {
       return {{1.0, 1.0 / g[0]}, {1.0}};
     case BlockKind::washout:
       return {{0.0, 1.0}, {g[0], 1.0}};
-    case BlockKind::dead_zone:
-    case BlockKind::freeze:
-      return {{1.0}, {1.0}};
     case BlockKind::notch:
       return {{g[0] * g[0], 2.0 * g[1] * g[0], 1.0}, {g[0] * g[0], 2.0 * g[2] * g[0], 1.0}};
+    case BlockKind::dead_zone:
+    case BlockKind::freeze:
+      break;
   }
   throw InvalidInput("controller: not a kind of block");
 }
@@ -41,8 +41,7 @@ std::vector<PathSection> path_sections(const Controller& controller, LoopPath pa
   for (const LoopBlock& block : controller.structure.blocks()) {
     const double* own = gains;
     gains += block.gains.size();
-    const bool linear = block.kind != BlockKind::dead_zone && block.kind != BlockKind::freeze;
-    if (block.path != path || !linear) continue;
+    if (block.path != path || is_integral_condition(block.kind)) continue;
     Polynomials section = polynomials(block, own);
     if (block.kind == BlockKind::gain) {
       gain = own[0];

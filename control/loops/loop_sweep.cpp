@@ -26,7 +26,7 @@ template <bool with_gradients, std::size_t width>
     if (with_gradients) by_gain[0] = {1.0, 0.0};
     return;
   }
-  if (kind == BlockKind::dead_zone || kind == BlockKind::freeze) {
+  if (is_integral_condition(kind)) {
     if (with_gradients) by_gain[0] = {0.0, 0.0};
     return;
   }

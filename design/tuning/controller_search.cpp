@@ -11,11 +11,6 @@ constexpr std::size_t most_of_a_kind = control::PeakList::maximum;
 // What a constraint counts as that has no quantity at the moment: met by far.
 constexpr double absent = -1.0;
 
-// Of a dead zone or freeze, on which no linear figure depends.
-bool is_width(const control::LoopBlock& block) {
-  return block.kind == control::BlockKind::dead_zone || block.kind == control::BlockKind::freeze;
-}
-
 // The bounds' own logarithms lead back to them but for a rounding error, which is removed.
 void set_gains(control::Controller& controller, const std::vector<double>& point) {
   const auto& descriptions = controller.structure.gains();
@@ -26,7 +21,8 @@ void set_gains(control::Controller& controller, const std::vector<double>& point
   if (!controller.structure.has_conditional_integral()) return;
   std::size_t k = 0;
   for (const auto& block : controller.structure.blocks()) {
-    if (is_width(block)) {
+    // No linear figure depends on a width.
+    if (control::is_integral_condition(block.kind)) {
       controller.gains[k] = std::sqrt(descriptions[k].lower * descriptions[k].upper);
     }
     k += block.gains.size();

@@ -175,6 +175,28 @@ TEST(AntennaController, HoldsTheIntegralWithinADeadZoneOfEverything) {
   }
 }
 
+// At the limit for an hour, with the integral held and with one that takes every error.
+TEST(AntennaController, UnwindsAConditionalIntegralHeldOrNot) {
+  for (const auto& name : names()) {
+    for (const double width : {1e6, 1e-13}) {
+      const Controller controller = with_width(name, width);
+      AntennaController limited(controller, sample_time, {.command_limit = 0.1});
+      VectorXd measured = VectorXd::Zero(static_cast<Eigen::Index>(limited.inputs().size()));
+      measured[controller.structure.feeds_torque_back() ? 3 : 2] = 1.0;  // reference
+      VectorXd command(1);
+      for (int k = 0; k < 180000; ++k) limited.update(0.0, measured, command);
+      ASSERT_EQ(command[0], 0.1) << name;
+      measured *= -1.0;
+      int samples = 0;
+      for (; samples < 20000 && command[0] > -0.1; ++samples) {
+        limited.update(0.0, measured, command);
+        ASSERT_TRUE(std::isfinite(command[0]));
+      }
+      EXPECT_LT(samples, 2000) << name << ' ' << width;
+    }
+  }
+}
+
 TEST(AntennaController, WithAConditionalIntegralHoldsTheMotionThatItIsStartedFrom) {
   for (const auto& name : names()) {
     const Controller start = with_width(name, 0.1);

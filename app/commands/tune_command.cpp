@@ -187,9 +187,8 @@ Subcommand add_tune(CLI::App& program) {
          "(PI with lead, lag and pressure feedback), with suffixes +L (position lag instead "
          "of the integrals), +D (dead zone of one integral) or +F (freeze of one integral), "
          "+N (notch) and +C (compliance compensation), or a [[loop]] of the case; also SS "
-         "(a state space, designed "
-         "from the best of the others, alone from the best of the structures of the case); see "
-         "docs/control-structures.md")
+         "(a state space, designed from the best of the others, alone from the best of the "
+         "structures of the case); see docs/control-structures.md")
       ->expected(1, 100);
   sub->add_option("--goal", arguments->goals,
                   "KEY=VALUE of [goals] instead of the case's, one or several")

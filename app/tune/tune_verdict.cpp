@@ -129,8 +129,9 @@ std::string integral_text(const TuneSection& section) {
       without.push_back(row.structure);
   }
   return fmt::format(
-      " A static encoder error of 0 needs an integral in the rate or position loop, which {} {} "
-      "not have. Allow the error found, or take structures with integrals, such as PI, LL, DPF or "
+      " A static encoder error of 0 needs an integral in the rate or position loop that acts on "
+      "every error, which {} {} not have. Allow the error found, or take structures with "
+      "integrals, such as PI, LL, DPF or "
       "FULL.",
       fmt::join(without, ", "), without.size() == 1 ? "does" : "do");
 }

@@ -116,7 +116,15 @@ TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
                                 const PlantUncertainty& uncertainty, int starts,
                                 const ProposalOptions& options) {
   for (const auto& one : antennas) {
-    if (!options.time_domain && one.structures.state_space_named) {
+    if (options.time_domain) continue;
+    for (const auto& loop : one.structures.loops) {
+      if (!loop.structure.has_conditional_integral()) continue;
+      throw InvalidInput(fmt::format(
+          "{}: expected the time domain for {}, whose integral acts on large errors only, found "
+          "none",
+          one.name, loop.name));
+    }
+    if (one.structures.state_space_named) {
       throw InvalidInput(fmt::format(
           "{}: expected the time domain for a state space ({}), which starts from the loops that "
           "are best there, found none",

@@ -250,6 +250,27 @@ control::LoopStructure bounded(const control::LoopStructure& structure,
   return {structure.name(), std::move(blocks)};
 }
 
+// About one step of the encoder, where the case does not state both bounds.
+control::LoopStructure with_width(const Case& antenna, const control::LoopStructure& structure) {
+  const double step = design::encoder_step(antenna.sensors->encoder_noise.value);
+  if (step > 0.0) return structure.with_integral_width(step * gear_ratio(antenna));
+  const bool stated = std::ranges::any_of(antenna.tuning->bounds, [&](const GainBoundEntry& one) {
+    return one.lower && one.upper &&
+           std::ranges::any_of(structure.blocks(), [&](const control::LoopBlock& block) {
+             return control::is_integral_condition(block.kind) &&
+                    block.gains.front().symbol == one.symbol;
+           });
+  });
+  if (!stated) {
+    throw InvalidInput(
+        fmt::format("{}: expected encoder noise, whose step is the width of its integral, or both "
+                    "bounds of the "
+                    "width in [[tuning.bound]], found neither",
+                    structure.name()));
+  }
+  return structure;
+}
+
 GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols) {
   std::vector<std::string> known;
   for (const auto& block : all_blocks()) {
@@ -285,7 +306,7 @@ GainBoundEntry read_bound(TableReader& table, std::set<std::string>& symbols) {
 
 Kind gain_kind(control::LoopPath path, control::BlockKind kind, std::size_t index) {
   if (kind == BlockKind::notch && index > 0) return Kind::number;
-  if (kind == BlockKind::dead_zone || kind == BlockKind::freeze) return Kind::angle;
+  if (control::is_integral_condition(kind)) return Kind::angle;
   if (kind != BlockKind::gain) return Kind::bandwidth_frequency;
   switch (path) {
     case LoopPath::rate:
@@ -307,10 +328,9 @@ control::LoopStructure loop_structure(const Case& antenna, const std::string& na
     names.push_back(in_quotes(entry.structure.name()));
   }
   if (is_usual(name)) {
-    auto usual = control::LoopStructure::named(name).with_bounds_for(driven_load(antenna));
-    const double step = design::encoder_step(antenna.sensors->encoder_noise.value);
-    if (step > 0.0) usual = usual.with_integral_width(step * gear_ratio(antenna));
-    return bounded(usual, antenna.tuning->bounds);
+    const auto usual = control::LoopStructure::named(name).with_bounds_for(driven_load(antenna));
+    return bounded(usual.has_conditional_integral() ? with_width(antenna, usual) : usual,
+                   antenna.tuning->bounds);
   }
   std::vector<std::string_view> known(control::usual_structures().begin(),
                                       control::usual_structures().end());
@@ -330,9 +350,8 @@ void check_structure(const Case& antenna, const std::string& name) {
 std::vector<control::LoopStructure> usual_structures_with_lag(const Case& antenna) {
   std::vector<control::LoopStructure> usual;
   for (const auto& name : control::usual_structures()) {
-    if (name.starts_with("PI-0")) continue;
-    auto structure = loop_structure(antenna, name);
-    if (!structure.has_conditional_integral()) usual.push_back(std::move(structure));
+    const bool conditional = control::LoopStructure::named(name).has_conditional_integral();
+    if (!name.starts_with("PI-0") && !conditional) usual.push_back(loop_structure(antenna, name));
   }
   return usual;
 }

@@ -239,6 +239,13 @@ design::CandidateStructures asked_structures(const Case& stated, std::vector<std
     for (const auto& loop : stated.loops) names.push_back(loop.structure.name());
   }
   for (const auto& name : names) structures.loops.push_back({name, loop_structure(stated, name)});
+  for (const auto& one : structures.loops) {
+    if (stated.simulation || !one.structure.has_conditional_integral()) continue;
+    throw InvalidInput(fmt::format(
+        "{}: expected [simulation] in the case for an integral with a dead zone or freeze, whose "
+        "effect depends on the size of the errors, found none",
+        one.name));
+  }
   // Of no use without an integral; named ones are tuned, and the answer says what they miss.
   if (is_usual && stated.goals->static_encoder_error &&
       stated.goals->static_encoder_error->value == 0.0) {

@@ -119,8 +119,7 @@ control::LoopStructure structure_named(const Case& antenna, const std::string& n
     if (controller.structure.name() == name) return controller.structure;
   }
   for (const auto& usual : control::usual_structures()) {
-    auto structure = loop_structure(antenna, usual);
-    if (structure.name() == name) return structure;
+    if (control::LoopStructure::named(usual).name() == name) return loop_structure(antenna, usual);
   }
   return loop_structure(antenna, name);
 }

@@ -130,6 +130,16 @@ TEST(CaseTuning, WidthsOfConditionalIntegralsFollowTheEncoder) {
       with("[[tuning.bound]]\ngain = 'fzp'\nlower = '0.01 deg'\nupper = '0.04 deg'\n"), "PI+F");
   EXPECT_NEAR(std::sqrt(stated.gains().back().lower * stated.gains().back().upper),
               0.02 * std::numbers::pi / 180.0, 1e-12);
+  // Without encoder noise the case states both bounds.
+  io::Case noiseless = with("");
+  noiseless.sensors->encoder_noise.value = 0.0;
+  EXPECT_THAT([&] { io::loop_structure(noiseless, "PI+F"); },
+              testing::ThrowsMessage<InvalidInput>(HasSubstr("expected encoder noise")));
+  EXPECT_NO_THROW(io::loop_structure(noiseless, "PI"));
+  noiseless = with("[[tuning.bound]]\ngain = 'fzp'\nlower = '0.01 deg'\nupper = '0.04 deg'\n");
+  noiseless.sensors->encoder_noise.value = 0.0;
+  EXPECT_DOUBLE_EQ(io::loop_structure(noiseless, "PI+F").gains().back().upper,
+                   0.04 * std::numbers::pi / 180.0);
   // No tuning starts from them.
   for (const auto& usual : io::usual_structures_with_lag(antenna)) {
     EXPECT_FALSE(usual.has_conditional_integral());

@@ -368,9 +368,11 @@ TEST(Tune, LimitsTheStaticErrorInTheMeanWind) {
   EXPECT_EQ(none.exit_code, 3);
   EXPECT_THAT(none.errors, ContainsRegex("comes nearest: .*static encoder error.*: [0-9.]+ mdeg, "
                                          "limit at most 0"));
-  EXPECT_THAT(none.errors,
-              HasSubstr("A static encoder error of 0 needs an integral in the rate or position "
-                        "loop, which LL+L does not have. Allow the error found, or take"));
+  EXPECT_THAT(
+      none.errors,
+      HasSubstr("A static encoder error of 0 needs an integral in the rate or position "
+                "loop that acts on every error, which LL+L does not have. Allow the error found, "
+                "or take"));
   EXPECT_EQ(tune(path, {"--goal", "static_encoder_error=0 mdeg"}).exit_code, 0);
   const auto small =
       tune(path, {"--structure", "LL+L", "--goal", "static_encoder_error=0.001 mdeg"});

@@ -32,11 +32,13 @@ def check(sections, *arguments):
 
 
 case = "cases/dss14-70m/case.toml"
-lines = check(("Boresight", "What the main job prints"), "redesign", case)
-lines += check(("Tuning",), "tune", case, "--structure", "PI", "--structure", "DPF+C")
+lines = check(("Tuning",), "tune", case, "--structure", "PI", "--structure", "DPF+C")
 with tempfile.TemporaryDirectory() as folder:
+    report = f"{folder}/redesign.json"
+    lines += check(("Boresight", "What the main job prints"), "redesign", case, "--json", report)
+    # The controller that the command tunes without: tests/app/tune/controller_study_test.cpp.
     lines += check(("Simulated tests",), "simulate", case, "slosh", "slow-ramp", "tracking",
-                   "--folder", folder)
+                   "--folder", folder, "--gains", report)
 
 # The card, a picture and the two commands come first.
 firsts = [readme.index(first) for first in ("\n      Recommended ", "\n![", "\n## Two commands\n")]

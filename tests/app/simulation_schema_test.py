@@ -30,18 +30,26 @@ def refuse_constant(name):
     raise ValueError(f"{name} is no JSON")
 
 
+GAINS = ('\n[gains]\nstructure = "PI"\nkr = 0.043\nwi = "0.3 rad/s"\nwp = "2.5 rad/s"\n'
+         'kp = "30 1/s"\nwip = "0.2 rad/s"\n')
+
+
 @functools.lru_cache(maxsize=None)
-def run(*tests, old="", new="", gains=""):
-    """Exit code, report, text, errors and the records' lines of a run on an edited case; with gains,
-    a table of the case, on those instead of the recommended controller."""
+def run(*tests, old="", new="", state_space=False):
+    """Exit code, report, text, errors and the records' lines of a run on an edited case, with given
+    gains (tests/app/readme_test.py runs the recommended controller) or the same as a state space."""
     assert old in CASE
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
-        (folder / "case.toml").write_text(CASE.replace(old, new, 1) + gains, encoding="utf-8")
+        (folder / "case.toml").write_text(CASE.replace(old, new, 1) + GAINS, encoding="utf-8")
+        controller = ["--gains", "case"]
+        if state_space:
+            subprocess.run([PROGRAM, "benchmark", "case.toml", *controller, "--sampled", "--quiet",
+                            "--export-controller", "controller.json"], cwd=folder, check=True)
+            controller = ["--controller", "controller.json"]
         process = subprocess.run(
             [PROGRAM, "simulate", "case.toml", *tests, "--folder", "out", "--json", "report.json",
-             *(("--gains", "case") if gains else ())],
-            cwd=folder, capture_output=True, text=True, check=False)
+             *controller], cwd=folder, capture_output=True, text=True, check=False)
         report = json.loads((folder / "report.json").read_text(), parse_constant=refuse_constant)
         records = {path: (folder / path).read_text().splitlines() for path in report["records"]}
         return process.returncode, report, process.stdout, process.stderr, records
@@ -82,8 +90,9 @@ class Simulation(unittest.TestCase):
         walk({**SCHEMA, "$defs": definitions})
 
     def test_reports_fit_it_and_carry_their_units(self):
-        for tests in (("slosh", "slow-ramp", "fast-ramp"), ("tracking", "slew")):
-            code, report, _, errors, _ = run(*tests)
+        for tests, state_space in ((("slosh", "slow-ramp", "fast-ramp"), False),
+                                   (("tracking", "slew"), False), (("tracking", "slew"), True)):
+            code, report, _, errors, _ = run(*tests, state_space=state_space)
             self.assertEqual((code, errors), (0, ""))
             self.assertEqual([f"{list(e.absolute_path)}: {e.message[:200]}"
                               for e in VALIDATOR.iter_errors(report)], [])
@@ -140,9 +149,7 @@ class Simulation(unittest.TestCase):
     def test_a_failure_leaves_the_report_of_what_was_done(self):
         code, report, text, errors, records = run(
             "slosh", "tracking", "slew", old='design_speed = { value = "10 m/s"',
-            new='design_speed = { value = "60 m/s"',  # more torque than the supply's
-            gains='\n[gains]\nstructure = "PI"\nkr = 0.043\nwi = "0.3 rad/s"\nwp = "2.5 rad/s"\n'
-                  'kp = "30 1/s"\nwip = "0.2 rad/s"\n')
+            new='design_speed = { value = "60 m/s"')  # more torque than the supply's
         self.assertEqual(code, 4)
         self.assertEqual(list(records), ["out/slosh.csv"])
         self.assertEqual([r["test"] for r in report["drive_tests"]], ["slosh"])

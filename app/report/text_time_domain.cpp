@@ -148,6 +148,19 @@ Document limit_cycle_part(const TimeDomainSection& section) {
   return text;
 }
 
+Document predicted_part(const TimeDomainSection& section) {
+  if (section.limit_cycles_by_friction.empty()) return {};
+  std::string text = "no limit cycle above half an encoder step.";
+  if (const auto& one = section.predicted_limit_cycle) {
+    text = fmt::format("+-{} mdeg at the encoder, {:.3g} Hz{}.", mdeg(one->encoder_amplitude),
+                       one->frequency,
+                       one->encoder_amplitude > section.encoder_resolution
+                           ? ""
+                           : "; below one encoder step most loops come to rest");
+  }
+  return wrapped("Describing functions predict at rest: " + text, "  ", "  ");
+}
+
 // Limit cycles with friction variations.
 Document other_friction_part(const TimeDomainSection& section) {
   int all = 0;
@@ -331,8 +344,8 @@ Document candidates_part(const TimeDomainSection& section) {
 Document document_of(const TimeDomainSection& section) {
   return heading("In the time domain, on the nonlinear antenna: " + section.controller) +
          wind_part(section) + integrators_part(section) + static_part(section) +
-         limit_cycle_part(section) + other_friction_part(section) + reversal_part(section) +
-         slew_part(section) +
+         limit_cycle_part(section) + predicted_part(section) + other_friction_part(section) +
+         reversal_part(section) + slew_part(section) +
          wrapped(
              fmt::format("The controller: sampled every {:g} s with one sample of computing, "
                          "feedforward, shaped commands, anti-windup. Encoder resolution: {} mdeg. "

@@ -8,6 +8,7 @@
 #include <boresight/design/problem/drive_capability.hpp>
 #include <boresight/design/problem/standstill.hpp>
 #include <boresight/design/studies/time_domain_study.hpp>
+#include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/nonlinear/nonlinear_drive.hpp>
@@ -101,6 +102,15 @@ std::vector<LimitCyclesWithFriction> with_other_friction(
   return limit_cycles_by_friction(loop, friction_variations(loop.antenna.friction), options);
 }
 
+// Beyond what is compared.
+void add_limit_cycles(const SimulatedLoop& loop, TimeDomainStudy& section) {
+  section.limit_cycles_by_friction = with_other_friction(loop, section.options);
+  const auto predicted = LimitCyclePrediction(loop, section.options.threads).of(loop.controller);
+  if (const auto* one = largest_lasting(predicted, min_limit_cycle_amplitude(loop))) {
+    section.predicted_limit_cycle = *one;
+  }
+}
+
 // Violations that limit cycles with the stated friction count as: above the number of runs with
 // other friction, 4 variations x 2 rates x 3 starts.
 constexpr int violations_of_stated_friction = 30;
@@ -185,8 +195,7 @@ std::optional<TimeDomainStudy> verify_in_time_domain(
   section.options.second_integrator = further == FurtherRuns::all;
   section = verify(mission, problem, controller, std::move(section));
   if (further == FurtherRuns::all) {
-    section.limit_cycles_by_friction = with_other_friction(
-        loop_of(mission, problem, controller, section.encoder_resolution), section.options);
+    add_limit_cycles(loop_of(mission, problem, controller, section.encoder_resolution), section);
   }
   add_own_present(mission, problem, section);
   return section;
@@ -245,7 +254,7 @@ TimeDomainStudy TimeDomainChoice::chosen(ChoiceDetail detail) {
     const SimulatedLoop loop =
         loop_of(mission_, problem_, controllers_[best].controller, chosen.encoder_resolution);
     explain_in_wind(problem_, loop, chosen.options, chosen.result);
-    chosen.limit_cycles_by_friction = with_other_friction(loop, chosen.options);
+    add_limit_cycles(loop, chosen);
     add_own_present(mission_, problem_, chosen);
   }
   if (sections_.size() == 1) return chosen;

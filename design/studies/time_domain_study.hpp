@@ -10,6 +10,7 @@
 
 #include <boresight/design/decisions/recommend.hpp>
 #include <boresight/design/problem/mission.hpp>
+#include <boresight/design/verification/limit_cycle_prediction.hpp>
 #include <boresight/design/verification/limit_cycles_by_friction.hpp>
 #include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/design/verification/shared_winds.hpp>
@@ -70,6 +71,9 @@ struct TimeDomainStudy {
 
   /// With friction_variations; empty for a controller that is only compared.
   std::vector<LimitCyclesWithFriction> limit_cycles_by_friction;
+  /// At rest, by describing functions (largest_lasting above half an encoder step). None where
+  /// limit_cycles_by_friction is empty.
+  std::optional<PredictedLimitCycle> predicted_limit_cycle;
 
   /// This controller as a candidate.
   Candidate own() const { return {controller, result, rms}; }

@@ -118,6 +118,21 @@ void describe_other_friction(Visitor& v, const std::vector<design::LimitCyclesWi
          });
 }
 
+void describe_predicted(Visitor& v, const std::optional<design::PredictedLimitCycle>& predicted) {
+  v.optional_group(
+      "predicted_limit_cycle", predicted,
+      "The largest at rest that describing functions predict, above half an encoder step; null for "
+      "none, and for a controller that is only compared.",
+      [&](const design::PredictedLimitCycle& one) {
+        v.defined_as("predicted_limit_cycle", "By harmonic balance; no verdict rests on it.");
+        v.number("frequency", one.frequency, unit::hertz, "Of the oscillation.", known);
+        v.number("encoder_amplitude", one.encoder_amplitude, unit::millidegree,
+                 "Half of peak to peak.", known);
+        v.number("boresight_amplitude", one.boresight_amplitude, unit::millidegree, "The same.",
+                 known);
+      });
+}
+
 void describe_reversal(Visitor& v, const std::optional<design::ReversalResult>& reversal) {
   v.optional_group(
       "reversal", reversal, "Slow reversals; null without a tracking rate.",
@@ -240,6 +255,7 @@ void describe(Visitor& v, const design::TimeDomainStudy& study) {
       [&](const design::IntegratorAgreement& both) { describe_integrators(v, both); });
   describe_limit_cycles(v, result.limit_cycles);
   describe_other_friction(v, study.limit_cycles_by_friction);
+  describe_predicted(v, study.predicted_limit_cycle);
   describe_reversal(v, result.reversal);
   describe_slew(v, result.slew, settled_error);
   v.list("candidates", study.candidates,

@@ -24,9 +24,9 @@ struct FrictionDrive {
 };
 
 /// Its steady oscillation under a sinusoidal opening: the describing function of oil, leakage and
-/// friction together. With leakage a held motor takes no flow and friction alone has no sinusoidal
-/// rate, so that the describing function of friction (equivalent_friction) predicts limit cycles at
-/// rest up to twice too large.
+/// friction together. With leakage an opening below that of the breakaway torque moves nothing, so
+/// that the rate is no sinusoid; the describing function of friction alone (equivalent_friction)
+/// predicts limit cycles at rest too large.
 struct DriveOscillation {
   std::complex<double> rate;    // fundamental of the motor rate, per opening
   std::complex<double> torque;  // fundamental of the motor torque, N m s/rad

@@ -1,0 +1,120 @@
+#include <cmath>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "design/reference_problem.hpp"
+#include "reference_nonlinear_antenna.hpp"
+#include <boresight/design/verification/limit_cycle_prediction.hpp>
+#include <boresight/design/verification/limit_cycle_search.hpp>
+#include <boresight/numerics/angles.hpp>
+
+namespace boresight::design {
+namespace {
+
+using reference::mdeg;
+
+control::Controller pi_controller(double rate_integral, double position_integral) {
+  return {control::LoopStructure::pi_with_lag(),
+          {0.1587, rate_integral, 2.6279, 10.258, position_integral}};
+}
+
+plant::DriveDetails details_with(const plant::FrictionCurve& friction) {
+  auto details = reference::drive_details();
+  details.line_lengths.clear();
+  details.friction.curve = friction;
+  return details;
+}
+
+SimulatedLoop loop_with(const plant::FrictionCurve& friction, double encoder_step,
+                        const control::Controller& controller) {
+  auto loop = make_simulated_loop(reference::tracking_problem(),
+                                  reference::nonlinear_antenna(details_with(friction)), controller);
+  loop.encoder_resolution = encoder_step * loop.gear_ratio;
+  return loop;
+}
+
+LimitCycleResult simulated(const SimulatedLoop& loop) {
+  NonlinearVerificationOptions options;
+  options.limits = {250.0 * mdeg, 200.0 * mdeg};
+  constexpr std::size_t largest_start = 2;
+  return confirmed_limit_cycle_run(loop, options, 0.0, largest_start);
+}
+
+const plant::FrictionCurve stribeck{10.33, 16.83, 0.15, 63.29, 1.5, 2.075};
+
+TEST(LimitCyclePrediction, AgreesWithSimulationOnAmplitudeAndFrequency) {
+  // Two integrals, with and without encoder steps.
+  const plant::FrictionCurve coulomb{10.0, 10.0, 1.0, 0.0, 1.0, 0.9};
+  for (const auto& [friction, step, controller] :
+       {std::tuple{coulomb, 0.0, pi_controller(0.42, 0.9)},
+        std::tuple{coulomb, 0.34 * mdeg, pi_controller(0.42, 0.9)},
+        std::tuple{coulomb, 0.34 * mdeg, pi_controller(0.9, 0.6)},
+        std::tuple{stribeck, 0.34 * mdeg, pi_controller(0.9, 0.23)}}) {
+    const SimulatedLoop loop = loop_with(friction, step, controller);
+    const LimitCycleResult run = simulated(loop);
+    ASSERT_TRUE(run.limit_cycle);
+    const auto predicted = LimitCyclePrediction(loop, 2).of(loop.controller);
+    const auto* cycle = largest_lasting(predicted, min_limit_cycle_amplitude(loop));
+    ASSERT_NE(cycle, nullptr);
+    EXPECT_NEAR(cycle->encoder_amplitude / run.encoder_amplitude, 1.0, 0.2);
+    EXPECT_NEAR(cycle->frequency / run.frequency.value(), 1.0, 0.03);
+    EXPECT_NEAR(cycle->boresight_amplitude / cycle->encoder_amplitude,
+                run.boresight_amplitude / run.encoder_amplitude, 0.1);
+  }
+}
+
+TEST(LimitCyclePrediction, FindsNoneWithoutDryFrictionOrWithoutIntegrals) {
+  const SimulatedLoop frictionless =
+      loop_with({0.0, 0.0, 1.0, 0.0, 1.0, 2.0}, 0.34 * mdeg, pi_controller(0.9, 0.23));
+  EXPECT_TRUE(LimitCyclePrediction(frictionless, 1).of(frictionless.controller).empty());
+  // A slow loop whose leaky integral gives way to friction.
+  const SimulatedLoop slow = loop_with(stribeck, 0.34 * mdeg, pi_controller(0.9, 0.23));
+  const control::Controller leaky{control::LoopStructure::pi_with_lag().with_position_lag(),
+                                  {0.1, 10.0, 0.5, 0.2, 0.4}};
+  ASSERT_EQ(leaky.structure.gains().size(), leaky.gains.size());
+  const auto predicted = LimitCyclePrediction(slow, 1).of(leaky);
+  EXPECT_EQ(largest_lasting(predicted, min_limit_cycle_amplitude(slow)), nullptr);
+}
+
+TEST(LimitCyclePrediction, ScalesWithFrictionAndStep) {
+  // Twice all torques and rates of the curve, and twice the encoder's step: twice the motion. The
+  // supply's torque is not scaled, and little of it is used.
+  const plant::FrictionCurve twice{20.66, 33.66, 0.30, 126.58, 3.0, 2.075};
+  auto one = loop_with(stribeck, 0.34 * mdeg, pi_controller(0.9, 0.23));
+  auto other = loop_with(twice, 0.68 * mdeg, pi_controller(0.9, 0.23));
+  one.antenna.oil.supply_torque = other.antenna.oil.supply_torque = 1e9;
+  const auto small = LimitCyclePrediction(one, 1).of(one.controller);
+  const auto large = LimitCyclePrediction(other, 1).of(other.controller);
+  ASSERT_EQ(small.size(), large.size());
+  ASSERT_FALSE(small.empty());
+  for (std::size_t i = 0; i < small.size(); ++i) {
+    EXPECT_NEAR(large[i].encoder_amplitude, 2.0 * small[i].encoder_amplitude,
+                1e-6 * large[i].encoder_amplitude);
+    EXPECT_NEAR(large[i].frequency, small[i].frequency, 1e-6 * small[i].frequency);
+    EXPECT_EQ(large[i].lasting, small[i].lasting);
+  }
+}
+
+TEST(LimitCyclePrediction, DoesNotDependOnThreads) {
+  const SimulatedLoop loop = loop_with(stribeck, 0.34 * mdeg, pi_controller(0.9, 0.23));
+  const auto one = LimitCyclePrediction(loop, 1).of(loop.controller);
+  const auto two = LimitCyclePrediction(loop, 2).of(loop.controller);
+  ASSERT_EQ(one.size(), two.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    EXPECT_EQ(one[i].encoder_amplitude, two[i].encoder_amplitude);
+    EXPECT_EQ(one[i].frequency, two[i].frequency);
+  }
+}
+
+TEST(LargestLasting, IsTheLastThatLastsAboveAnAmplitude) {
+  const std::vector<PredictedLimitCycle> predicted{
+      {0.1, 1.0, 1.0, true}, {0.1, 2.0, 2.0, true}, {0.1, 3.0, 3.0, false}};
+  EXPECT_EQ(largest_lasting(predicted, 0.5), &predicted[1]);
+  EXPECT_EQ(largest_lasting(predicted, 2.0), nullptr);
+  EXPECT_EQ(largest_lasting({}, 0.0), nullptr);
+}
+
+}  // namespace
+}  // namespace boresight::design

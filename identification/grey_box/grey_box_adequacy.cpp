@@ -30,6 +30,7 @@ GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const Vec
     const auto& p = parameters.list()[static_cast<std::size_t>(i)];
     if (!p.from_drawings || !(p.spread > 0.0)) continue;
     const double square = point(i) * point(i);
+    if (i == P::supply_torque) conflict.supply_departure = point(i);
     conflict.sum += square;
     ++conflict.count;
     if (std::abs(point(i)) > std::abs(conflict.departure)) {
@@ -45,6 +46,9 @@ GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const Vec
     conflict.limit = numerics::chi_squared_quantile(confidence, conflict.count);
   if (of_entering > 0 && entering > numerics::chi_squared_quantile(confidence, of_entering)) {
     conflict.widening = entering / of_entering;
+  }
+  if (std::abs(conflict.supply_departure) >= GreyBoxConflict::supply_beyond) {
+    conflict.widening = std::max(conflict.widening, std::pow(conflict.supply_departure, 2));
   }
   return conflict;
 }

@@ -11,6 +11,9 @@ namespace boresight::identification {
 
 /// Whether what fits the records is what drawings, data sheets and instruments say.
 struct GreyBoxConflict {
+  /// Departures of the supply from here on are no scatter, in uncertainties: once in two thousand
+  /// campaigns.
+  static constexpr double supply_beyond = 3.5;
   /// Squares of the distances from the stated numbers, in units of their uncertainties: of all that
   /// drawings, data sheets and instruments state; how many; and the largest that so many have at
   /// random.
@@ -19,6 +22,9 @@ struct GreyBoxConflict {
   double limit = 0.0;
   std::string largest;  // the stated number that the records contradict most
   double departure = 0.0;
+  /// Distance of the supply pressure that the pressures show from the stated one, in its
+  /// uncertainties: a gain that all transducers share, or another supply.
+  double supply_departure = 0.0;
   /// Factor of the posterior's variances: above 1 where records contradict the stated numbers that
   /// inertia and stiffness rest on significantly.
   double widening = 1.0;
@@ -26,7 +32,9 @@ struct GreyBoxConflict {
 };
 
 /// Evaluates the conflict at the optimum. The scales of valve and supply, which enter neither
-/// inertia nor stiffness, count in the sum but not in the widening.
+/// inertia nor stiffness, count in the sum but not in the widening, unless the supply departs by
+/// `supply_beyond` or more: it is the only witness of a gain that all pressure transducers share.
+/// That gain is then among the stated numbers that widen, at the supply's distance.
 GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters,
                                   const Eigen::VectorXd& point);
 

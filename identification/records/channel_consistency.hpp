@@ -66,6 +66,8 @@ struct ChannelConsistencyOptions {
   double pressure_block = 0.2;
   /// Changes of the encoder's and the integrated tachometer's means over so long are compared, s.
   double motion_block = 1.0;
+  /// Blocks are halved down to this, s, where a record has too few of them.
+  double shortest_motion_block = 0.125;
   /// A gain whose 95 % interval is wider than +- this, relative, is not determined.
   double widest_gain = 0.1;
   /// The same of a pressure's zero, in parts of the supply pressure; of the tachometer's, in parts

@@ -19,7 +19,9 @@ struct ScaleConflict {
 /// Compares how much motor rate a command makes, g = sum(u w)/sum(u u) over the valid samples, with
 /// the median of the other records: the drive is one, so that g differs by losses alone. Where g is
 /// off by a factor of 3 or more for every command that a record has, its tachometer is on another
-/// scale; where it is for one of two commands, that command is. A record counts where it moves and
+/// scale; where it is for one of two commands, that command is. Leakage under friction's load takes
+/// valve command without rate: in a record below a tenth of the fastest record's rms rate a valve
+/// command is off from a factor of 8 on where it is too large. A record counts where it moves and
 /// has a command that moves; slosh tests do not, nor does a command that fewer than three records
 /// have. Places of missing records (null) stay.
 std::vector<ScaleConflict> scale_conflicts(const std::vector<const DriveRecord*>& records);

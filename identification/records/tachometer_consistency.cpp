@@ -120,16 +120,28 @@ class TachometerComparison {
  private:
   static constexpr double largest_delay = 2.0;  // s
 
-  std::vector<ComparedQuantity> fit_about(const std::vector<std::size_t>& places,
-                                          double shift) const {
+  std::vector<MotionChange> changes_of(const std::vector<std::size_t>& places, double shift,
+                                       double block) const {
     std::vector<MotionChange> changes;
     for (const std::size_t place : places) {
       if (!is_compared(records_[place])) continue;
-      add_changes(*records_[place].clean->record, knowledge_, shift, options_.motion_block,
-                  changes);
+      add_changes(*records_[place].clean->record, knowledge_, shift, block, changes);
+    }
+    return changes;
+  }
+
+  std::vector<ComparedQuantity> fit_about(const std::vector<std::size_t>& places,
+                                          double shift) const {
+    // One short or mostly clipped record has too few long blocks.
+    double block = options_.motion_block;
+    auto changes = changes_of(places, shift, block);
+    std::vector<Index> groups = row_groups(static_cast<Index>(changes.size()));
+    while (groups.empty() && block > options_.shortest_motion_block) {
+      block *= 0.5;
+      changes = changes_of(places, shift, block);
+      groups = row_groups(static_cast<Index>(changes.size()));
     }
     const auto rows = static_cast<Index>(changes.size());
-    const std::vector<Index> groups = row_groups(rows);
     if (groups.empty()) return {};
     Eigen::MatrixXd regressors(rows, 4);
     Eigen::VectorXd response(rows);

@@ -51,6 +51,17 @@ TEST(GreyBoxConflict, CountsWhatIsStatedAndWidensForWhatInertiaRestsOn) {
   EXPECT_NEAR(posterior.covariance(P::coulomb_torque, P::coulomb_torque), 1.0, 1e-9);
 }
 
+TEST(GreyBoxConflict, TakesASupplyThatIsFarOffForAGainOfAllPressures) {
+  const GreyBoxParameters parameters = synthetic::truth_parameters();
+  VectorXd point = VectorXd::Zero(parameters.size());
+  point(P::supply_torque) = 3.0;
+  EXPECT_EQ(grey_box_conflict(parameters, point).widening, 1.0);
+  point(P::supply_torque) = -4.0;
+  const auto conflict = grey_box_conflict(parameters, point);
+  EXPECT_EQ(conflict.supply_departure, -4.0);
+  EXPECT_DOUBLE_EQ(conflict.widening, 16.0);
+}
+
 TEST(FitGreyBox, SaysWhenRecordsContradictADrawingAndNoLongerHidesIt) {
   const Truth truth;
   Campaign campaign = synthetic::campaign(truth.parameters, truth.point, 0.005, 11);

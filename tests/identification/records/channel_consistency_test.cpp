@@ -255,6 +255,28 @@ TEST(ChannelConsistency, NamesTheOneRecordThatIsUnlikeTheOthers) {
   EXPECT_EQ(row_of(rows, "tach", Quantity::gain, "record 2")->verdict, Verdict::suspect);
 }
 
+TEST(ChannelConsistency, NamesTheTachometerOfOneShortRecord) {
+  Records records(Drive{}, 4, 7);
+  DriveRecord& record = *records.clean(1).record;
+  const auto samples = static_cast<Eigen::Index>(std::lround(20.0 / record.sample_time));
+  const auto shorten = [samples](Signal& signal) {
+    signal.values = signal.values.head(samples).eval();
+    if (!signal.valid.empty()) signal.valid.resize(static_cast<std::size_t>(samples));
+  };
+  for (auto* side : {&record.inlet_pressure, &record.outlet_pressure}) {
+    for (Signal& pressure : *side) shorten(pressure);
+  }
+  shorten(record.motor_rate);
+  shorten(*record.encoder);
+  record.motor_rate.values *= 1.05;
+  const auto rows = records.check();
+  EXPECT_EQ(row_of(rows, "tach", Quantity::gain)->verdict, Verdict::right);
+  const ChannelCheck* alone = row_of(rows, "tach", Quantity::gain, "record 2");
+  ASSERT_NE(alone, nullptr);
+  EXPECT_EQ(alone->verdict, Verdict::suspect);
+  EXPECT_NEAR(alone->interval->value, 1.05, 0.01);
+}
+
 TEST(ChannelConsistency, SaysWhereRecordsCannotTell) {
   Drive drive;
   drive.motors = 1;

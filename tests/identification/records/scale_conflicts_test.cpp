@@ -61,6 +61,23 @@ TEST(ScaleConflicts, NameTheCommandWhereOneOfTwoIsOff) {
   EXPECT_NEAR(found[0].factor, 0.1 * 0.8 / 0.9, 1e-9);
 }
 
+// Under friction's load leakage takes as much valve command at any rate.
+TEST(ScaleConflicts, TakeLeakageOfASlowRecordForNoScale) {
+  auto all = records();
+  for (Signal* signal : {&all[0].motor_rate, &*all[0].rate_command}) signal->values *= 0.05;
+  all[0].valve_command->values *= 0.05 * 4.0;
+  EXPECT_TRUE(conflicts_of(all).empty());
+  all[0].valve_command->values *= 2.5;
+  auto found = conflicts_of(all);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].channel, Channel::valve_command);
+  // A valve command that is too small is no leakage's.
+  all[0].valve_command->values *= 0.01;
+  found = conflicts_of(all);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].channel, Channel::valve_command);
+}
+
 TEST(ScaleConflicts, TakeValidSamplesAlone) {
   auto all = records();
   all[1].motor_rate.values.head(100) *= 100.0;

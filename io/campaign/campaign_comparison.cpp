@@ -175,8 +175,17 @@ std::string verdict(const CampaignSection& section,
 
 std::string contradiction_with_case(const identification::GreyBoxResult& found) {
   const auto& conflict = found.conflict;
-  if (!conflict.beyond_scatter()) return {};
-  std::string text = fmt::format(
+  std::string text;
+  if (std::abs(conflict.supply_departure) >= identification::GreyBoxConflict::supply_beyond) {
+    text = fmt::format(
+        "The supply pressure that the records show is {:.1f} standard uncertainties {} the stated "
+        "one: all pressure transducers share a wrong scale, or the case's supply pressure is "
+        "wrong.",
+        std::abs(conflict.supply_departure), conflict.supply_departure > 0.0 ? "above" : "below");
+  }
+  if (!conflict.beyond_scatter()) return text;
+  if (!text.empty()) text += ' ';
+  text += fmt::format(
       "The records and the stated numbers contradict one another: the squares of the distances of "
       "{} of them, in their uncertainties, add up to {:.0f} where random scatter makes {} and "
       "hardly ever "

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -99,6 +98,12 @@ std::string column_of(const CampaignNotes& notes, std::string_view signal) {
   return std::string(signal);
 }
 
+// A slosh test's rate rings with the lines, which the fit does not model.
+bool is_slosh(const CampaignSection& section, const std::string& name) {
+  const auto found = std::ranges::find(section.notes.records, name, &RecordNotes::name);
+  return found != section.notes.records.end() && found->test == identification::TestKind::slosh;
+}
+
 void add_unexplained(const CampaignSection& section, std::vector<ChannelSuspicion>& found) {
   std::vector<double> all;
   for (const auto& residual : section.grey_box->residuals) {
@@ -108,6 +113,7 @@ void add_unexplained(const CampaignSection& section, std::vector<ChannelSuspicio
   const double usual = numerics::median(std::move(all));
   for (const auto& residual : section.grey_box->residuals) {
     if (residual.pressures || !(residual.rms > badly_predicted * usual)) continue;
+    if (is_slosh(section, residual.record)) continue;
     ChannelSuspicion one;
     one.finding = "not explained";
     one.records = {residual.record};
@@ -122,23 +128,47 @@ void add_unexplained(const CampaignSection& section, std::vector<ChannelSuspicio
 }
 
 // Scales of the recorder's channels among what the fit varies, and the signals that have them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 6> scales{
-    {{"tachometer scale", "tachometer"},
-     {"pressure gain", "inlet pressure"},
-     {"torque per pressure", "inlet pressure"},
-     {"unlike gains of inlets and outlets", "outlet pressure"},
-     {"flow per rate", "tachometer"},
-     {"valve scale", "valve command"}}};
+struct ChannelScale {
+  std::string_view parameter;
+  std::vector<std::string_view> signals;
+};
+const std::vector<ChannelScale>& channel_scales() {
+  static const std::vector<ChannelScale> scales{
+      {"tachometer scale", {"tachometer"}},
+      {"pressure gain", {"inlet pressure", "outlet pressure"}},
+      {"torque per pressure", {"inlet pressure", "outlet pressure"}},
+      {"unlike gains of inlets and outlets", {"inlet pressure", "outlet pressure"}},
+      {"flow per rate", {"tachometer"}},
+      {"supply pressure as torque", {"inlet pressure", "outlet pressure"}},
+      {"valve scale", {"valve command"}}};
+  return scales;
+}
+
+// The columns of all motors that have these signals.
+std::vector<std::string> columns_of(const CampaignNotes& notes,
+                                    const std::vector<std::string_view>& signals) {
+  std::vector<std::string> columns;
+  for (const RecordNotes& record : notes.records) {
+    for (const SignalSource& source : record.sources) {
+      const bool counts = std::ranges::any_of(
+          signals, [&](std::string_view signal) { return source.signal.starts_with(signal); });
+      if (counts) add_once(columns, source.column);
+    }
+  }
+  if (columns.empty()) columns.assign(signals.begin(), signals.end());
+  return columns;
+}
 
 void add_contradicted(const CampaignSection& section, std::vector<ChannelSuspicion>& found) {
   for (const auto& parameter : section.grey_box->parameters) {
-    const auto* const scale = std::ranges::find(scales, std::string_view(parameter.parameter.name),
-                                                [](const auto& one) { return one.first; });
+    const auto& scales = channel_scales();
+    const auto scale = std::ranges::find(scales, std::string_view(parameter.parameter.name),
+                                         &ChannelScale::parameter);
     if (scale == scales.end() || std::abs(parameter.departure) < beyond_stated) continue;
     ChannelSuspicion one;
     one.finding = "contradicts the case";
     one.records = section.grey_box->records;
-    one.channels = {column_of(section.notes, scale->second)};
+    one.channels = columns_of(section.notes, scale->signals);
     one.fraction = 1.0;
     one.explanation =
         fmt::format("{}: {:.4g} fits, {:.4g} is stated, {:.1f} standard uncertainties",

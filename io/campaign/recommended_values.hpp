@@ -49,8 +49,9 @@ struct ChannelSuspicion {
 /// others (channel_suspicions); channels that are dead,
 /// exchanged, reversed or on another scale; samples that are missing, stuck or clipped, where they
 /// are many (from a two-hundredth of a record; half for clipped ones, which fast tests mean to
-/// have); and records whose rate the fit predicts five times worse than the median record's. Where
-/// the fit contradicts the case, also the channels whose stated scale it contradicts.
+/// have); and records, but slosh tests, whose rate the fit predicts five times worse than the
+/// median record's. Where the fit contradicts the case, also the channels whose stated scale it
+/// contradicts.
 std::vector<ChannelSuspicion> suspicions(const CampaignSection& section);
 
 }  // namespace boresight::io

@@ -101,6 +101,33 @@ TEST(Suspicions, NameARecordThatTheFitMisses) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].finding, "not explained");
   EXPECT_THAT(found[0].records, ElementsAre("d"));
+  // A slosh test rings with lines that the fit does not have.
+  RecordNotes slosh;
+  slosh.name = "d";
+  slosh.test = identification::TestKind::slosh;
+  section.notes.records = {slosh};
+  EXPECT_TRUE(suspicions(section).empty());
+}
+
+TEST(Suspicions, NameAllPressuresWhereTheirCommonGainIsContradicted) {
+  CampaignSection section = fitted();
+  section.grey_box->conflict.widening = 16.0;
+  RecordNotes notes;
+  notes.name = "a";
+  for (const char* motor : {"1", "2"}) {
+    notes.sources.push_back(
+        {std::string("inlet pressure ") + motor, std::string("in_") + motor, "Pa", false, ""});
+    notes.sources.push_back(
+        {std::string("outlet pressure ") + motor, std::string("out_") + motor, "Pa", false, ""});
+  }
+  section.notes.records = {notes};
+  identification::GreyBoxParameterResult supply;
+  supply.parameter.name = "supply pressure as torque";
+  supply.departure = 4.0;
+  section.grey_box->parameters = {supply};
+  const auto found = suspicions(section);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_THAT(found[0].channels, ElementsAre("in_1", "out_1", "in_2", "out_2"));
 }
 
 TEST(Suspicions, NameTheChannelWhoseScaleTheRecordsContradict) {

@@ -179,7 +179,7 @@ std::string contradiction_with_case(const identification::GreyBoxResult& found) 
   if (std::abs(conflict.supply_departure) >= identification::GreyBoxConflict::supply_beyond) {
     text = fmt::format(
         "The supply pressure that the records show is {:.1f} standard uncertainties {} the stated "
-        "one: all pressure transducers share a wrong scale, or the case's supply pressure is "
+        "one: all pressure transducers have the same wrong scale, or the case's supply pressure is "
         "wrong.",
         std::abs(conflict.supply_departure), conflict.supply_departure > 0.0 ? "above" : "below");
   }

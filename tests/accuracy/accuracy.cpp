@@ -30,8 +30,8 @@ says who). Written by `./dev accuracy`; a test compares it with what the program
 - *asked*: largest error allowed; *last digit*: half a unit of the last digit the reference is
   printed with.
 
-The last section, how often the intervals of identified numbers hold the truth, is written by
-`./dev coverage`, which takes longer than a test may.
+The last two sections take longer than a test may: how often the intervals of identified numbers
+hold the truth, by `./dev coverage`, and what becomes of faulty records, by `./dev faults`.
 )";
 
 std::string text_of(const std::string& path) {
@@ -54,7 +54,10 @@ std::string document(bool& holds) {
     text += "\n" + rows.markdown();
     holds = holds && rows.holds();
   }
-  return text + "\n" + text_of(BORESIGHT_SOURCE_DIR "/tests/coverage/table.md");
+  for (const char* table : {"/tests/coverage/table.md", "/tests/faults/table.md"}) {
+    text += "\n" + text_of(std::string(BORESIGHT_SOURCE_DIR) + table);
+  }
+  return text;
 }
 
 }  // namespace

@@ -117,6 +117,9 @@ void add_recorder(Draw& draw, RandomDrive& drive, int motors, double supply) {
   drive.tachometer_ripple = draw.between(0.0, 0.002);
   drive.ripple_order = draw.between(0.5, 6.0);
   drive.valve_scale = 1.0 + instruments.valve_scale * draw.normal();
+  drive.encoder.resolution = turn / draw.logarithmic(4e6, 3e7);
+  drive.encoder.noise = 0.5 * drive.encoder.resolution;
+  drive.knowledge.gear_ratio = draw.logarithmic(1000.0, 10000.0);
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ struct RandomDrive {
   double tachometer_ripple = 0.0;            // amplitude, fraction of the rate
   double ripple_order = 0.0;                 // periods a turn of the motor
   double valve_scale = 1.0;                  // recorded per true command
+  plant::Sensor encoder;                     // rad at the sky
 
   // How the tests are run.
   double rate_limit = 0.0;     // rad/s: the recorder shows no more

@@ -68,7 +68,8 @@ double steps_about_a_speed(double t) {
   return step == steps.end() ? 0.0 : step->height;
 }
 
-std::vector<DriveTest> campaign_tests(const RandomDrive& drive, std::vector<double>& speeds) {
+std::vector<DriveTest> campaign_tests(const RandomDrive& drive, const CampaignLength& lengths,
+                                      std::vector<double>& speeds) {
   const double stroke = drive.antenna.valve.stroke_limit;
   const double limit = drive.rate_limit;
   std::vector<DriveTest> tests;
@@ -79,8 +80,8 @@ std::vector<DriveTest> campaign_tests(const RandomDrive& drive, std::vector<doub
   tests.push_back(ramp("fast ramp", TestKind::fast_ramp, std::min(1.5 * limit, 0.9 * stroke), 14.0,
                        2.5, false));
   tests.push_back(ramp("slow ramp", TestKind::slow_ramp, 0.053 * limit, 40.0, 1.0, true));
-  constexpr double half_period = 8.0;
-  for (const double fraction : {0.025, 0.05, 0.1, 0.2, 0.4, 0.8}) {
+  const double half_period = lengths.half_period;
+  for (const double fraction : lengths.speeds) {
     const double speed = fraction * limit;
     speeds.push_back(speed);
     tests.push_back({fmt::format("constant speed {:g}", fraction), TestKind::constant_speed, 0.005,
@@ -92,7 +93,8 @@ std::vector<DriveTest> campaign_tests(const RandomDrive& drive, std::vector<doub
   }
   tests.push_back({"valve steps", TestKind::valve_steps, 0.005, 55.0, false,
                    [=](double t) { return stroke * (0.1 + 0.02 * steps_about_a_speed(t)); }});
-  constexpr double lowest = 0.1, octaves = 4.382026634673881, settle = 8.0, length = 60.0;
+  constexpr double lowest = 0.1, octaves = 4.382026634673881, settle = 8.0;
+  const double length = lengths.chirp;
   tests.push_back(
       {"valve chirp", TestKind::valve_chirp, 0.005, settle + length, false, [=](double t) {
          const double into = std::clamp(t - settle, 0.0, length);
@@ -150,8 +152,8 @@ class Bench {
         closed_(plant::closed(open_, rate_loop(drive.integral_gain))),
         start_(plant::state_held_by_friction(antenna_)) {}
 
-  identification::DriveRecord record(const DriveTest& test, std::uint64_t number,
-                                     MeanPressure& mean) const;
+  identification::RawRecord record(const DriveTest& test, std::uint64_t number,
+                                   MeanPressure& mean) const;
 
  private:
   const RandomDrive& drive_;
@@ -161,8 +163,8 @@ class Bench {
   VectorXd start_;
 };
 
-identification::DriveRecord Bench::record(const DriveTest& test, std::uint64_t number,
-                                          MeanPressure& mean) const {
+identification::RawRecord Bench::record(const DriveTest& test, std::uint64_t number,
+                                        MeanPressure& mean) const {
   const auto& system = test.closed ? closed_ : open_;
   const plant::LowPass filter{4, 0.35 / test.sample_time};
   double fastest_line = 0.0;
@@ -227,14 +229,17 @@ identification::DriveRecord Bench::record(const DriveTest& test, std::uint64_t n
       drive_.valve_scale * recorded(test.closed ? plant::column(run, "valve_command") : command);
   raw.rate_command = rate_command;
   raw.valve_command = valve_command;
+  raw.encoder.emplace();
+  raw.encoder->name = "encoder";
+  raw.encoder->values =
+      plant::readings(drive_.encoder,
+                      recorded(plant::column(run, "encoder")) / drive_.knowledge.gear_ratio, seed_,
+                      streams + 98)
+          .values;
   raw.time =
       VectorXd::LinSpaced(raw.tachometer.values.size(), 0.0,
                           test.sample_time * static_cast<double>(raw.tachometer.values.size() - 1));
-  auto clean = identification::clean_record(raw);
-  if (!clean.record) {
-    throw NumericalFailure(fmt::format("record {}: {}", test.name, clean.refusal));
-  }
-  return std::move(*clean.record);
+  return raw;
 }
 
 double mean_gain(const RandomDrive& drive) {
@@ -254,7 +259,8 @@ double false_difference(const RandomDrive& drive, double common) {
 
 }  // namespace
 
-SimulatedCampaign simulate_campaign(const RandomDrive& drive, std::uint64_t seed) {
+SimulatedCampaign simulate_campaign(const RandomDrive& drive, std::uint64_t seed,
+                                    const CampaignLength& length) {
   SimulatedCampaign result;
   result.campaign.knowledge = drive.knowledge;
   result.campaign.instruments = drive.instruments;
@@ -262,9 +268,14 @@ SimulatedCampaign simulate_campaign(const RandomDrive& drive, std::uint64_t seed
   const Bench lines(drive, 2, seed), bench(drive, 1, seed);
   MeanPressure mean;
   std::uint64_t number = 0;
-  for (const auto& test : campaign_tests(drive, result.speeds)) {
+  for (const auto& test : campaign_tests(drive, length, result.speeds)) {
     const Bench& on = test.kind == TestKind::slosh ? lines : bench;
-    result.campaign.records.push_back(on.record(test, number++, mean));
+    result.raw.push_back(on.record(test, number++, mean));
+    auto clean = identification::clean_record(result.raw.back());
+    if (!clean.record) {
+      throw NumericalFailure(fmt::format("record {}: {}", test.name, clean.refusal));
+    }
+    result.campaign.records.push_back(std::move(*clean.record));
   }
   const double common = mean.sum / mean.time;
   // Recorded torque per true torque; torque_per_pressure of the knowledge is that of one motor.

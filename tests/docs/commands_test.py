@@ -32,6 +32,7 @@ ELSEWHERE = {
     "./dev api": "tests/docs/api_test.py",
     "./dev bench": "minutes of timing",
     "./dev coverage": "an hour of two cores",
+    "./dev faults": "an hour of two cores; tests/faults/faults_test.cpp runs a few",
     "./dev compare": "minutes, and a program of another build",
     "./dev figures": "draws docs/figures; their numbers are tested by identification_doc and readme",
     "./dev package": "tests/packaging",

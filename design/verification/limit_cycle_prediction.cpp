@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
-#include <optional>
 
 #include <boresight/control/controllers/conditional_integral.hpp>
 #include <boresight/design/verification/limit_cycle_prediction.hpp>
@@ -70,11 +70,11 @@ Complex dead_time(const SimulatedLoop& loop, double frequency) {
   return std::polar(1.0, -1.5 * loop.sample_time * frequency);
 }
 
-// Place of a zero in a cell of a grid, 0 to 1 along either side, and whether the amplitude returns
-// to it: a larger amplitude is then stable, and has one turn more.
+// Place of a zero in a cell of a grid, 0 to 1 along either side. At a stable one the linear loop
+// has an unstable pair of poles less at the larger amplitude (J. Loeb's criterion).
 struct Zero {
   double x, y;
-  bool lasting;
+  bool stable;
 };
 
 // By the winding number of the values at the corners, then on the plane that fits them.
@@ -83,7 +83,7 @@ std::optional<Zero> zero_in(const ArrayXXcd& values, Index i, Index j) {
                 d = values(i, j + 1);
   const auto turn = [](Complex from, Complex to) { return std::arg(to * std::conj(from)); };
   const double winding = turn(a, b) + turn(b, c) + turn(c, d) + turn(d, a);
-  if (std::abs(winding) < std::numbers::pi) return std::nullopt;
+  if (!(std::abs(winding) > std::numbers::pi)) return std::nullopt;
   const Complex by_x = 0.5 * (b - a + c - d), by_y = 0.5 * (d - a + c - b);
   const Complex centre = 0.25 * (a + b + c + d);
   const double area = (std::conj(by_x) * by_y).imag();
@@ -219,12 +219,13 @@ void LimitCyclePrediction::append(const control::Controller& controller, const A
   for (Index i = 0; i < reading.rows(); ++i) {
     auto c = control::compensator_response(controller, frequency[i]);
     for (Index j = 0; j < reading.cols(); ++j) {
+      // The corrected angle, which a conditional integral takes.
+      const Complex angle = reading(i, j) - c.compliance * answers.torque(i, j);
       if (conditional) {
-        const double read = std::abs(reading(i, j)) * answers.opening(i, j);
-        control::set_linear_equivalent(controller, read, equivalent);
+        control::set_linear_equivalent(controller, std::abs(angle) * answers.opening(i, j),
+                                       equivalent);
         c = control::compensator_response(equivalent, frequency[i]);
       }
-      const Complex angle = reading(i, j) - c.compliance * answers.torque(i, j);
       returned(i, j) =
           1.0 + answers.valve[i] * (c.rate * (answers.tachometer(i, j) + c.position * angle) +
                                     c.pressure * answers.torque(i, j));
@@ -245,7 +246,7 @@ void LimitCyclePrediction::append(const control::Controller& controller, const A
       one.encoder_amplitude = std::lerp(amplitude(i), amplitude(i + 1), zero->x) / gear_ratio_;
       one.boresight_amplitude =
           one.encoder_amplitude * std::abs(answers.structure.boresight_per_bull_gear[i]);
-      one.lasting = zero->lasting;
+      one.stable = zero->stable;
       found.push_back(one);
     }
   }
@@ -262,11 +263,12 @@ std::vector<PredictedLimitCycle> LimitCyclePrediction::of(
   return found;
 }
 
-const PredictedLimitCycle* largest_lasting(const std::vector<PredictedLimitCycle>& predicted,
-                                           double amplitude) {
-  const PredictedLimitCycle* largest = nullptr;
+std::optional<PredictedLimitCycle> largest_stable(const std::vector<PredictedLimitCycle>& predicted,
+                                                  double amplitude) {
+  std::optional<PredictedLimitCycle> largest;
   for (const PredictedLimitCycle& one : predicted) {
-    if (one.lasting && one.encoder_amplitude > amplitude) largest = &one;
+    const double limit = largest ? largest->encoder_amplitude : amplitude;
+    if (one.stable && one.encoder_amplitude > limit) largest = one;
   }
   return largest;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <complex>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,9 +16,9 @@ struct PredictedLimitCycle {
   double frequency = 0.0;            // Hz
   double encoder_amplitude = 0.0;    // rad at the sky, half of peak to peak
   double boresight_amplitude = 0.0;  // the same
-  /// Small changes of the amplitude decay. An oscillation that is not lasting separates motion that
-  /// dies out from motion that grows to the next larger one.
-  bool lasting = false;
+  /// Small changes of the amplitude decay, by J. Loeb's criterion; other unstable poles are not
+  /// excluded. An unstable limit cycle separates motion that dies out from motion that grows.
+  bool stable = false;
 };
 
 /// Limit cycles at rest, without wind and noise, of any controller of one antenna by describing
@@ -31,8 +31,9 @@ struct PredictedLimitCycle {
 /// Nyquist, from an opening that just moves the motor to 60 times as much.
 ///
 /// The tables take some tenths of a second, a controller then a millisecond; simulating it
-/// (limit_cycle_run) takes several tenths. Neglected are harmonics, bristles, backlash and the
-/// valve's limits: docs/limit-cycles.md counts what is missed, and limit_cycle_search.hpp decides.
+/// (limit_cycle_run) takes some tenths. Neglected are harmonics, bristles, backlash, the offset
+/// torque, oil lines and air, steps of the tachometer, and limits, overlap and null offset of the
+/// valve. `./dev limit-cycles` counts what is missed, and limit_cycle_search.hpp decides.
 /// Source: A. Gelb, W. E. Vander Velde, Multiple-Input Describing Functions and Nonlinear System
 /// Design, 1968, chapters 2 and 3.
 class LimitCyclePrediction {
@@ -41,18 +42,20 @@ class LimitCyclePrediction {
   /// @throws InvalidInput as plant::to_state_space; NumericalFailure as plant::hydraulic_mode.
   LimitCyclePrediction(const SimulatedLoop& loop, unsigned threads);
 
-  /// In order of rising amplitude.
+  /// In order of rising amplitude; one of many encoder steps may stand twice, about a middle and an
+  /// edge.
   std::vector<PredictedLimitCycle> of(const control::Controller& controller) const;
 
  private:
-  /// The drive's answers over frequency and amplitude, each per opening of the valve's ports.
+  /// The drive's answers over frequency and amplitude, each per opening of the valve's ports; of
+  /// the fast ones per command, with the valve's dynamics in them.
   struct Answers {
     plant::StructureResponse structure;  // at the frequencies
     Eigen::ArrayXcd valve;               // opening per command, with dead time
     Eigen::ArrayXXd opening;             // rad/s
     Eigen::ArrayXXcd tachometer, torque;
-    /// rad of motor, of the bull gear: as it moves, and as the encoder reads it about the middle of
-    /// a code and about an edge.
+    /// rad of motor, of the bull gear as the encoder reads it about the middle of a code and about
+    /// an edge.
     Eigen::ArrayXXcd middle_reading, edge_reading;
     Eigen::ArrayXXd amplitude;  // rad of motor, of the bull gear, half of peak to peak
   };
@@ -65,9 +68,8 @@ class LimitCyclePrediction {
   std::vector<Answers> answers_;
 };
 
-/// The largest lasting one above an amplitude (rad at the sky) at the encoder; null if there is
-/// none.
-const PredictedLimitCycle* largest_lasting(const std::vector<PredictedLimitCycle>& predicted,
-                                           double amplitude);
+/// The largest stable one above an amplitude (rad at the sky) at the encoder.
+std::optional<PredictedLimitCycle> largest_stable(const std::vector<PredictedLimitCycle>& predicted,
+                                                  double amplitude);
 
 }  // namespace boresight::design

@@ -122,7 +122,7 @@ void describe_predicted(Visitor& v, const std::optional<design::PredictedLimitCy
   v.optional_group(
       "predicted_limit_cycle", predicted,
       "The largest at rest that describing functions predict, above half an encoder step; null for "
-      "none, and for a controller that is only compared.",
+      "none, and where limit_cycles_by_friction is empty.",
       [&](const design::PredictedLimitCycle& one) {
         v.defined_as("predicted_limit_cycle", "By harmonic balance; no verdict rests on it.");
         v.number("frequency", one.frequency, unit::hertz, "Of the oscillation.", known);

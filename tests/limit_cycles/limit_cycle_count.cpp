@@ -109,9 +109,7 @@ int run(const std::vector<std::string>& words) {
       start = Clock::now();
       const auto predicted = prediction.of(loop.controller);
       of_controllers[i * each + k] = milliseconds_since(start);
-      if (const auto* one = largest_lasting(predicted, min_limit_cycle_amplitude(loop))) {
-        outcome.predicted = *one;
-      }
+      outcome.predicted = largest_stable(predicted, min_limit_cycle_amplitude(loop));
       outcome.step = loop.encoder_resolution / loop.gear_ratio;
       start = Clock::now();
       std::vector<design::LimitCycleResult> runs;
@@ -135,10 +133,10 @@ int run(const std::vector<std::string>& words) {
     return fmt::format("{} ({:.1f} %)", part, whole > 0 ? 100.0 * part / whole : 0.0);
   };
   for (const Range& range : found.ranges) {
-    const int hits = range.cycles - range.missed;
     fmt::print("| {} | {} | {} | {} | {} |\n", range.name, range.cycles,
-               with_percent(range.missed, range.cycles), with_percent(range.amplitudes, hits),
-               with_percent(range.frequencies, hits));
+               with_percent(range.missed, range.cycles),
+               with_percent(range.amplitudes, range.cycles),
+               with_percent(range.frequencies, range.cycles));
   }
   fmt::print(
       "\n{} loops come to rest from each of three starts. A limit cycle is predicted for {} of "

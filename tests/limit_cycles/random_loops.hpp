@@ -15,8 +15,8 @@ struct RandomLoops {
   std::vector<control::Controller> controllers;
 };
 
-/// Loops of an antenna with random friction, encoder steps and gains; the same on every computer,
-/// whatever the number of threads. Friction torques 0.5 to 2 times, breakaway up to 1.65 times
+/// Loops of an antenna with random friction, encoder steps and gains; the same for any number of
+/// threads. Friction torques 0.5 to 2 times, breakaway up to 1.65 times
 /// more, Stribeck rate 0.5 to 2 times, encoder steps 0.3 to 3.3 times those of the mission.
 /// Controllers are those that tuning without regard to limit cycles finds for nine structures, each
 /// gain times exp(0.7 n) with n normal, of which those remain that are stable as linear loops.

@@ -6,6 +6,7 @@
 
 #include "design/reference_problem.hpp"
 #include "reference_nonlinear_antenna.hpp"
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/verification/limit_cycle_prediction.hpp>
 #include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/numerics/angles.hpp>
@@ -56,8 +57,8 @@ TEST(LimitCyclePrediction, AgreesWithSimulationOnAmplitudeAndFrequency) {
     const LimitCycleResult run = simulated(loop);
     ASSERT_TRUE(run.limit_cycle);
     const auto predicted = LimitCyclePrediction(loop, 2).of(loop.controller);
-    const auto* cycle = largest_lasting(predicted, min_limit_cycle_amplitude(loop));
-    ASSERT_NE(cycle, nullptr);
+    const auto cycle = largest_stable(predicted, min_limit_cycle_amplitude(loop));
+    ASSERT_TRUE(cycle);
     EXPECT_NEAR(cycle->encoder_amplitude / run.encoder_amplitude, 1.0, 0.2);
     EXPECT_NEAR(cycle->frequency / run.frequency.value(), 1.0, 0.03);
     EXPECT_NEAR(cycle->boresight_amplitude / cycle->encoder_amplitude,
@@ -75,7 +76,7 @@ TEST(LimitCyclePrediction, FindsNoneWithoutDryFrictionOrWithoutIntegrals) {
                                   {0.1, 10.0, 0.5, 0.2, 0.4}};
   ASSERT_EQ(leaky.structure.gains().size(), leaky.gains.size());
   const auto predicted = LimitCyclePrediction(slow, 1).of(leaky);
-  EXPECT_EQ(largest_lasting(predicted, min_limit_cycle_amplitude(slow)), nullptr);
+  EXPECT_FALSE(largest_stable(predicted, min_limit_cycle_amplitude(slow)));
 }
 
 TEST(LimitCyclePrediction, ScalesWithFrictionAndStep) {
@@ -93,7 +94,50 @@ TEST(LimitCyclePrediction, ScalesWithFrictionAndStep) {
     EXPECT_NEAR(large[i].encoder_amplitude, 2.0 * small[i].encoder_amplitude,
                 1e-6 * large[i].encoder_amplitude);
     EXPECT_NEAR(large[i].frequency, small[i].frequency, 1e-6 * small[i].frequency);
-    EXPECT_EQ(large[i].lasting, small[i].lasting);
+    EXPECT_EQ(large[i].stable, small[i].stable);
+  }
+}
+
+// The sampled loops with the ports of a state space.
+control::Controller as_state_space(const control::Controller& loops, double sample_time) {
+  plant::StateSpace sampled = control::sampled_controller(loops, sample_time);
+  const plant::StateSpace all = sampled;
+  sampled.inputs = {"tachometer", "encoder"};
+  if (loops.structure.feeds_torque_back()) sampled.inputs.emplace_back("motor_torque");
+  const auto count = static_cast<Eigen::Index>(sampled.inputs.size());
+  const Eigen::Index output = plant::output_index(all, "valve_demand");
+  sampled.b.resize(all.b.rows(), count);
+  sampled.d.resize(1, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const auto column = plant::input_index(all, sampled.inputs[static_cast<std::size_t>(i)]);
+    sampled.b.col(i) = all.b.col(column);
+    sampled.d(0, i) = all.d(output, column);
+  }
+  sampled.c = Eigen::MatrixXd(all.c.row(output));
+  sampled.outputs = {"valve_demand"};
+  return control::state_space_controller("the same", sampled);
+}
+
+// Paths of tachometer, encoder and torque have the signs of the state space.
+TEST(LimitCyclePrediction, IsThatOfTheSameLoopsAsAStateSpace) {
+  for (const char* name : {"PI", "DPF", "PI+C"}) {
+    control::Controller loops{control::LoopStructure::named(name), {0.1587, 0.9, 2.6279}};
+    if (loops.structure.has(control::LoopPath::pressure)) {
+      loops.gains.insert(loops.gains.end(), {0.02, 0.5});
+    }
+    loops.gains.insert(loops.gains.end(), {10.258, 0.23});
+    if (loops.structure.has(control::LoopPath::compliance)) {
+      loops.gains.insert(loops.gains.end(), {1e-3, 1.0});
+    }
+    ASSERT_EQ(loops.gains.size(), loops.structure.gains().size()) << name;
+    const SimulatedLoop loop = loop_with(stribeck, 0.34 * mdeg, loops);
+    const LimitCyclePrediction prediction(loop, 2);
+    const auto one = largest_stable(prediction.of(loops), min_limit_cycle_amplitude(loop));
+    const auto other = largest_stable(prediction.of(as_state_space(loops, loop.sample_time)),
+                                      min_limit_cycle_amplitude(loop));
+    ASSERT_TRUE(one && other) << name;
+    EXPECT_NEAR(other->encoder_amplitude / one->encoder_amplitude, 1.0, 0.05) << name;
+    EXPECT_NEAR(other->frequency / one->frequency, 1.0, 0.02) << name;
   }
 }
 
@@ -108,12 +152,14 @@ TEST(LimitCyclePrediction, DoesNotDependOnThreads) {
   }
 }
 
-TEST(LargestLasting, IsTheLastThatLastsAboveAnAmplitude) {
+TEST(LargestStable, IsTheLargestAboveAnAmplitude) {
   const std::vector<PredictedLimitCycle> predicted{
       {0.1, 1.0, 1.0, true}, {0.1, 2.0, 2.0, true}, {0.1, 3.0, 3.0, false}};
-  EXPECT_EQ(largest_lasting(predicted, 0.5), &predicted[1]);
-  EXPECT_EQ(largest_lasting(predicted, 2.0), nullptr);
-  EXPECT_EQ(largest_lasting({}, 0.0), nullptr);
+  const auto largest = largest_stable(predicted, 0.5);
+  ASSERT_TRUE(largest);
+  EXPECT_EQ(largest->encoder_amplitude, 2.0);
+  EXPECT_FALSE(largest_stable(predicted, 2.0));
+  EXPECT_FALSE(largest_stable({}, 0.0));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ void add_tuning(py::module_& module);
 void add_matching(py::module_& module);
 void add_evaluation(py::module_& module);
 void add_simulation(py::module_& module);
+void add_commissioning(py::module_& module);
 /// Last: names of version 0.1, which warn.
 void add_renamed_names(py::module_& module);
 

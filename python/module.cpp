@@ -25,5 +25,6 @@ PYBIND11_MODULE(boresight, module) {
   python::add_matching(module);
   python::add_evaluation(module);
   python::add_simulation(module);
+  python::add_commissioning(module);
   python::add_renamed_names(module);
 }

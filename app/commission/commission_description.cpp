@@ -82,7 +82,16 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
   command.suffix = "mdeg_or_mdeg_per_s";
   v.number("command_step", sheet.step, command,
            "of the position command, with the position loop open of the rate command, at the sky");
-  v.group("expected", "over the plants", [&] { describe_expected(v, sheet.stage.expected, sky); });
+  io::KeyUnit rate_at_sky = sky;
+  rate_at_sky.suffix = unit::millidegree_per_second.suffix;
+  v.number("steady_motion",
+           sheet.experiment ? std::optional(sheet.experiment->base_rate) : std::nullopt,
+           rate_at_sky, "below the step or the move, at the sky; null without [simulation]");
+  v.number("step_time",
+           sheet.experiment ? std::optional(sheet.experiment->step_time) : std::nullopt,
+           unit::second, "of each step");
+  v.group("expected", "over the plants, linear",
+          [&] { describe_expected(v, sheet.stage.expected, sky); });
   const auto& abort = sheet.stage.abort;
   v.group("abort", "beyond any of these: back to the previous stage", [&] {
     v.number("overshoot", abort.overshoot, unit::ratio, "fraction of the step");
@@ -99,7 +108,7 @@ void describe_sheet(io::Visitor& v, const StageSheet& sheet, const io::KeyUnit& 
          [&](const StageCheck& check) {
            v.text("quantity", to_string(check.quantity), "what it is");
            v.text("unit", check.unit, "of the numbers beside it");
-           v.number("expected", check.expected, unit::none, "on the nominal plant");
+           v.number("expected", check.expected, unit::none, "on the nominal antenna");
            v.number("lower", check.lower, unit::none, "the stage passes from here");
            v.number("upper", check.upper, unit::none, "to here");
            v.number("abort_above", check.abort_above, unit::none,

@@ -70,13 +70,22 @@ std::string stage_name(const design::CommissioningStage& stage) {
 std::string command_in_words(const CommissionReport& report, const StageSheet& sheet) {
   const double sky = report.gear_ratio * millidegree;
   if (sheet.stage.controller.feedforward) {
-    return fmt::format(
-        "from a slow steady motion, faster by {:.3g} mdeg/s within {:.3g} s, steady, and back",
-        report.move.rate / sky, report.move.rate / report.move.acceleration);
+    return fmt::format("move faster by {:.3g} mdeg/s within {:.3g} s, steady, and back",
+                       report.move.rate / sky, report.move.rate / report.move.acceleration);
   }
   const bool open = sheet.stage.controller.position_open;
   return fmt::format("step of the {} command, {:.3g} mdeg{} at the sky", open ? "rate" : "position",
                      sheet.step / millidegree, open ? "/s" : "");
+}
+
+std::string motion_in_words(const CommissionReport& report, const StageSheet& sheet) {
+  if (!sheet.experiment) return "";
+  const double rate = sheet.experiment->base_rate / (report.gear_ratio * millidegree);
+  return fmt::format(
+      "Make it on a steady motion of {:.2g} mdeg/s{}. Still air: 100 s of that motion.", rate,
+      sheet.stage.controller.feedforward
+          ? std::string()
+          : fmt::format(", up and down, each step {:.2g} s", sheet.experiment->step_time));
 }
 
 std::vector<std::string> about_records(const CommissionReport& report) {
@@ -167,7 +176,7 @@ Document trials_part(const CommissionReport& report) {
     for (const auto& trial : report.faults) rows.push_back(fault_row(report, trial));
     text += heading("Faults that the stages detect");
     text += table(rows, "lll");
-    text += wrapped("Each fault alone, on the nominal plant; later stages are not run.", "  ");
+    text += wrapped("Each fault alone, on the nominal antenna; later stages are not run.", "  ");
   }
   return text;
 }

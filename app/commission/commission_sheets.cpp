@@ -36,9 +36,11 @@ Document sheet(const CommissionReport& report, std::size_t i) {
   }
   text += wrapped(fmt::format("Set: {}.", fmt::join(gains, "; ")), "  ");
   if (stage.checks.empty()) return text + wrapped(stage.reserve, "  ");
-  text += wrapped(fmt::format("Do: {}; then a record in still air with the command at rest.",
-                              command_in_words(report, stage)),
-                  "  ");
+  text +=
+      wrapped(fmt::format("Do: {}; then a record in still air{}", command_in_words(report, stage),
+                          stage.experiment ? ". " + motion_in_words(report, stage)
+                                           : " with the command at rest or in slow motion."),
+              "  ");
   Rows rows{{"measure", "unit", "expected", "from", "to", "abort above", "measured", "passes"}};
   for (const auto& check : stage.checks) {
     rows.push_back({std::string(to_string(check.quantity)), check.unit,
@@ -61,13 +63,15 @@ std::string sheets_csv(const CommissionReport& report) {
   for (std::size_t i = 0; i < report.sheets.size(); ++i) {
     const StageSheet& stage = report.sheets[i];
     for (const auto& check : stage.checks) {
-      text += fmt::format("{},{},{},{},{},{},{:.9g},{:.9g},{:.9g},{},,,,\n", i + 1,
-                          csv_field(stage_name(stage.stage)),
-                          stage.stage.controller.position_open ? "open" : "closed",
-                          csv_field(command_in_words(report, stage)),
-                          csv_field(std::string(to_string(check.quantity))), csv_field(check.unit),
-                          check.expected, check.lower, check.upper,
-                          check.abort_above ? fmt::format("{:.9g}", *check.abort_above) : "");
+      text +=
+          fmt::format("{},{},{},{},{},{},{:.9g},{:.9g},{:.9g},{},,,,\n", i + 1,
+                      csv_field(stage_name(stage.stage)),
+                      stage.stage.controller.position_open ? "open" : "closed",
+                      csv_field(command_in_words(report, stage) + (stage.experiment ? ". " : "") +
+                                motion_in_words(report, stage)),
+                      csv_field(std::string(to_string(check.quantity))), csv_field(check.unit),
+                      check.expected, check.lower, check.upper,
+                      check.abort_above ? fmt::format("{:.9g}", *check.abort_above) : "");
     }
   }
   return text;

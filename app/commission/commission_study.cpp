@@ -84,6 +84,10 @@ bool names_file(const CommissionOptions& options) {
 control::Controller target_of(const io::DesignedAntenna& designed, const CommissionOptions& options,
                               CommissionReport& report) {
   if (report.tuned) return recommended(designed, options, report);
+  if (options.controller) {
+    if (options.structure.empty()) report.structure = options.controller->structure.name();
+    return *options.controller;
+  }
   if (!names_file(options)) {
     return io::controller_by_key(designed.antenna, report.structure, options.gains);
   }
@@ -153,7 +157,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
   report.title = antenna.title;
   report.axis = io::pointing_axis(antenna);
   report.seed = options.seed;
-  report.tuned = options.gains.empty() && options.controller_path.empty();
+  report.tuned = options.gains.empty() && options.controller_path.empty() && !options.controller;
   report.structure = report.tuned ? options.structure : structure_of_gains(options);
   report.ensemble_source = to_string(ensemble.source);
   report.ensemble_size = ensemble.members.size();
@@ -196,7 +200,7 @@ CommissionReport plan_commission(const io::DesignedAntenna& designed,
     for (auto& channel : report.comparisons) {
       channel.predicted = predicted_ratio(report.plan, channel.quantity);
     }
-    report.sheets = make_sheets(antenna, report, study.steps);
+    report.sheets = make_sheets(antenna, report, study);
     add_stages(designed, options, study, std::move(records), report);
   } catch (const InfeasibleRequirement& error) {
     without_plan(error);

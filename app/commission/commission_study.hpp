@@ -32,8 +32,10 @@ struct CommissionOptions {
   /// tuned.
   std::vector<std::string> gains;
   std::string controller_path;  // of a state space instead of gains; empty: none
-  double largest_step = 2.0;    // factor on a gain from stage to stage
-  int starts = 0;               // of the tuning; 0: as the case has it
+  /// Instead of both: the controller itself, of `structure` in words.
+  std::optional<control::Controller> controller;
+  double largest_step = 2.0;  // factor on a gain from stage to stage
+  int starts = 0;             // of the tuning; 0: as the case has it
   std::uint64_t seed = 1;
   unsigned threads = 1;
   std::size_t plants = 0;  // fresh ones to try the stages on; 0: none
@@ -59,6 +61,9 @@ struct StageSheet {
   design::CommissioningStage stage;
   std::vector<StageGain> gains;  // those that act
   double step = 0.0;  // of the command to make: rad/s or rad at the sky, within saturation
+  /// The steady motion of step or move, and how long each step lasts. At the motor; none without
+  /// [simulation] of the case.
+  std::optional<design::StageExperiment> experiment;
   std::vector<StageCheck> checks;  // what to measure
   std::string reserve;             // what the abort limits leave of the loop gain
   std::string way_back;            // beyond an abort limit

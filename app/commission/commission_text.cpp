@@ -45,8 +45,8 @@ Document overview(const CommissionReport& report) {
   }
   return table(rows, "rll") +
          wrapped(
-             "Ms: largest over all plants and closed loops. Other columns: nominal plant; valve "
-             "rms in still air, boresight rms in the design wind.",
+             "Ms: largest over all plants and closed loops. Other columns: linear nominal plant; "
+             "valve rms in still air, boresight rms in the design wind.",
              "  ");
 }
 
@@ -89,6 +89,8 @@ Document sheets(const CommissionReport& report) {
                         check.abort_above ? checked_number(*check.abort_above) : "-"});
       }
       text += table(rows, "ll");
+      const std::string motion = motion_in_words(report, sheet);
+      if (!motion.empty()) text += wrapped(motion, "    ", "       ");
     }
     text += wrapped(sheet.reserve, "    ", "       ");
     text += wrapped("back   " + sheet.way_back, "    ", "       ");
@@ -162,15 +164,17 @@ Document plan_part(const CommissionReport& report) {
   }
   for (const auto& remark : report.plan.remarks) text += wrapped(remark, "  ");
   text += wrapped(
-      fmt::format(
-          "Values hold for the linear plant: make steps from a slow steady motion, clear "
-          "of breakaway, in still air. Keep them within the stated size (a fifth of valve "
-          "stroke and supply torque). The move: from a slow steady motion, faster by {:.3g} mdeg/s "
-          "within {:.3g} s, steady, and back. Rms values in still air assume the case's sensor "
-          "noise: compare "
-          "the first stage with a record and scale the others.",
-          report.move.rate / (report.gear_ratio * millidegree),
-          report.move.rate / report.move.acceleration),
+      fmt::format("{} Make steps and moves in still air, of the stated size (a fifth of valve "
+                  "stroke and supply torque) and on the stated steady motion, clear of breakaway. "
+                  "Rms values in still air assume the case's sensor noise: compare the first stage "
+                  "with a record and scale the others.",
+                  report.sheets.front().experiment
+                      ? fmt::format("Steps and moves are expected of the nonlinear antenna: the "
+                                    "brackets are those of the plants with what friction, orifices "
+                                    "and limits add to the nominal one, friction torques within "
+                                    "{:.0f} %.",
+                                    100.0 * design::friction_allowance)
+                      : std::string("Values hold for the linear plant.")),
       "  ");
   text += essential(wrapped(
       fmt::format(

@@ -135,7 +135,7 @@ void conclude_plan(const CommissionReport& report, const io::Case& antenna,
 }  // namespace
 
 std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionReport& report,
-                                    const std::vector<double>& steps) {
+                                    const design::CommissionStudy& study) {
   const io::GainUnits units(antenna);
   std::vector<StageSheet> sheets;
   sheets.reserve(report.plan.stages.size());
@@ -145,7 +145,8 @@ std::vector<StageSheet> make_sheets(const io::Case& antenna, const CommissionRep
     sheet.stage = report.plan.stages[i];
     sheet.gains = stage_gains(units, sheet.stage.controller,
                               before != nullptr ? &before->stage.controller : nullptr);
-    sheet.step = steps[i];
+    sheet.step = study.steps[i];
+    if (i < study.experiments.size()) sheet.experiment = study.experiments[i];
     sheet.checks = stage_checks(sheet.stage, report.units, report.options.rms_allowance);
     describe_reserve(report, sheet);
     describe_way_back(before, sheet);

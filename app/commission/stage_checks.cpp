@@ -44,7 +44,10 @@ QuantityUnit unit_of(StageQuantity quantity, const PlantUnits& units) {
       return {"mdeg rms", 1.0 / (units.gear_ratio * millidegree)};
     case StageQuantity::move_error:
       return {"mdeg", 1.0 / (units.gear_ratio * millidegree)};
+    case StageQuantity::oil_stiffness:
+      return {"N.m/rad", 1.0};
     case StageQuantity::valve_per_rate:
+    case StageQuantity::flow_per_rate:
       break;
   }
   return {units.valve_unit + " per " + units.tachometer_unit, units.valve / units.tachometer};
@@ -58,7 +61,7 @@ std::vector<StageCheck> stage_checks(const design::CommissioningStage& stage,
     const design::PassInterval interval = pass_interval(quantity, stage, rms_allowance);
     StageCheck check{quantity,
                      unit,
-                     factor * expected_of(quantity, stage.expected).nominal,
+                     factor * expected_value(quantity, stage),
                      factor * interval.lower,
                      factor * interval.upper,
                      abort_limit(quantity, stage)};

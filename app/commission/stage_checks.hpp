@@ -35,7 +35,7 @@ QuantityUnit unit_of(design::StageQuantity quantity, const PlantUnits& units);
 struct StageCheck {
   design::StageQuantity quantity = design::StageQuantity::rise_time;
   std::string unit;
-  double expected = 0.0;              // on the nominal plant
+  double expected = 0.0;              // on the nominal antenna
   double lower = 0.0, upper = 0.0;    // passes between them
   std::optional<double> abort_above;  // none: no limit of its own
 };

@@ -155,6 +155,7 @@ class Plants {
     expected.boresight_rms = band(seen, [](const Seen& s) { return s.boresight_rms; });
     expected.move_error = band(seen, [](const Seen& s) { return s.move_error; });
     expected.valve_per_rate = band(seen, [](const Seen& s) { return s.valve_per_rate; });
+    expected.oil_stiffness = band(seen, [](const Seen& s) { return s.oil_stiffness; });
   }
 
   // The closed loop about its crossover, as far as the sampled command shows it.

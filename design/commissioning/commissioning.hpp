@@ -7,7 +7,9 @@
 #include <vector>
 
 #include <boresight/design/commissioning/commissioning_check.hpp>
+#include <boresight/design/commissioning/oil_flow.hpp>
 #include <boresight/design/commissioning/plant_band.hpp>
+#include <boresight/design/commissioning/stage_quantity.hpp>
 
 namespace boresight::design {
 
@@ -63,7 +65,7 @@ struct StageExpectation {
   PlantBand peak, crossover, rise_time, overshoot, settling_time, largest_demand, largest_torque;
   PlantBand calm_encoder, calm_tachometer, calm_torque, calm_valve;
   PlantBand windy_encoder, windy_tachometer, windy_torque, windy_valve;
-  PlantBand boresight_rms, move_error, valve_per_rate;
+  PlantBand boresight_rms, move_error, valve_per_rate, oil_stiffness;
 
   /// True if every plant is stable in this stage; only the present gains may fail this.
   bool all_stable() const { return stable == plants; }
@@ -83,6 +85,10 @@ struct CommissioningStage {
   StageExpectation expected;
   StageBode bode;
   AbortLimits abort;
+  /// By experiment_effects, which plan_commissioning leaves out; empty: what is measured is
+  /// compared with the linear plants.
+  std::vector<ExperimentEffect> effects;
+  std::optional<FlowModel> flow;  // of the nonlinear antenna; none: torque is not evaluated
 };
 
 /// The stages from the antenna's present gains to the chosen controller.

@@ -315,7 +315,8 @@ StageObservation StageObserver::observe(const StageController& stage) {
   seen.boresight_rms = seen.move_error = no_number;
   if (!seen.stable || !(seen.crossover > 0.0)) {
     seen.crossover = seen.rise_time = seen.overshoot = seen.settling_time = no_number;
-    seen.largest_demand = seen.largest_torque = seen.valve_per_rate = no_number;
+    seen.largest_demand = seen.largest_torque = seen.valve_per_rate = seen.oil_stiffness =
+        no_number;
     seen.calm = seen.windy = {no_number, no_number, no_number, no_number};
     return seen;
   }
@@ -324,6 +325,7 @@ StageObservation StageObserver::observe(const StageController& stage) {
   const plant::Drive& drive = problem_.plant.drive;
   seen.valve_per_rate = (1.0 + drive.leakage_rate * drive.viscous_friction / drive.oil_stiffness) /
                         (factors_.valve * factors_.tachometer);
+  seen.oil_stiffness = drive.oil_stiffness * factors_.torque / factors_.tachometer;
   if (!stage.position_open) observe_move(stage, seen);
   if (!factors_.as_stated()) {
     seen.windy = {no_number, no_number, no_number, no_number};

@@ -42,6 +42,7 @@ struct StageObservation {
   /// Change of the steady valve command over that of the steady motor rate, as the tachometer shows
   /// it: 1 + leakage rate x viscous friction / oil stiffness of a plant as stated.
   double valve_per_rate = 0.0;
+  double oil_stiffness = 0.0;  // N m/rad, as torque and tachometer show it
   RecordedRms calm;            // in still air
   RecordedRms windy;           // in the problem's wind, and noise
   double boresight_rms = 0.0;  // rad, in the wind; NaN with the position loop open

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <boresight/design/commissioning/commissioning_trials.hpp>
+#include <boresight/design/commissioning/stage_record.hpp>
 #include <boresight/numerics/error.hpp>
 #include <boresight/plant/antenna/antenna_change.hpp>
 
@@ -11,6 +12,59 @@ namespace {
 
 // Ensembles take the samples from 0.
 constexpr std::uint64_t first_fresh_sample = 1'000'000;
+
+// A quantity and what an antenna shows of it, the worst of the stage.
+struct Shown {
+  StageEvaluation evaluation;
+  double measured = 0.0;
+};
+
+Shown on_linear_plant(const StageObservation& seen, const CommissioningStage& stage,
+                      double rms_allowance) {
+  Shown shown{evaluated(seen, stage, rms_allowance)};
+  if (shown.evaluation.worst) shown.measured = value_of(*shown.evaluation.worst, seen);
+  return shown;
+}
+
+// Steps and moves by a record; the rms in still air are those of the linear plant.
+Shown on_nonlinear_antenna(const Mission& mission, const CommissioningStage& stage,
+                           const StageExperiment& experiment, const AntennaFault& fault,
+                           const StageObservation& seen, double rms_allowance) {
+  Shown shown;
+  auto& evaluation = shown.evaluation;
+  evaluation.stable = seen.stable;
+  evaluation.verdict = StageVerdict::abort;
+  if (!seen.stable) return shown;
+  StageSimulationOptions options;
+  options.changes = fault.changes;
+  options.factors = fault.factors;
+  const auto record = simulate_stage(mission, stage, experiment, options);
+  evaluation.stable = record.motor_rate->values.size() > 0;
+  if (!evaluation.stable) return shown;
+  const auto measured = evaluated(measure_stage(record, stage, plant::gear_ratio(mission.antenna)),
+                                  stage, rms_allowance);
+  evaluation.verdict = worst_verdict(measured);
+  for (const EvaluatedQuantity& one : measured) {
+    if (one.verdict == StageVerdict::passes) continue;
+    evaluation.outside.push_back(one.measured.quantity);
+    if (!evaluation.worst && one.verdict == evaluation.verdict) {
+      evaluation.worst = one.measured.quantity;
+      shown.measured = one.measured.value;
+    }
+  }
+  for (const StageQuantity quantity : measured_quantities(stage)) {
+    if (!is_rms(quantity)) continue;
+    const double value = value_of(quantity, seen);
+    const StageVerdict verdict = verdict_on(quantity, value, 0.0, stage, rms_allowance);
+    if (verdict != StageVerdict::passes) evaluation.outside.push_back(quantity);
+    if (verdict <= evaluation.verdict) continue;
+    evaluation.verdict = verdict;
+    evaluation.worst = quantity;
+    shown.measured = value;
+  }
+  return shown;
+}
+
 }  // namespace
 
 CommissioningTrials try_stages(const Mission& mission, const PlantDistribution& distribution,
@@ -96,7 +150,8 @@ std::vector<AntennaFault> usual_faults(double motors, bool feeds_torque_back) {
 std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPlan& plan,
                                    const CommandedMove& move,
                                    const std::vector<AntennaFault>& faults,
-                                   const TrialOptions& options) {
+                                   const TrialOptions& options,
+                                   const std::vector<StageExperiment>& experiments) {
   const TrialAntenna antenna(mission, move);
   std::vector<FaultTrial> trials(faults.size());
   for_each_plant(0, faults.size(), options, [&](std::size_t i) {
@@ -107,11 +162,14 @@ std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPl
       const CommissioningStage& stage = plan.stages[k];
       if (stage.kind == StageKind::as_found) continue;
       const StageObservation seen = observer.observe(stage.controller);
-      const StageEvaluation evaluation = evaluated(seen, stage, options.rms_allowance);
-      if (evaluation.verdict == StageVerdict::passes) continue;
+      const Shown shown = k < experiments.size()
+                              ? on_nonlinear_antenna(mission, stage, experiments[k], faults[i],
+                                                     seen, options.rms_allowance)
+                              : on_linear_plant(seen, stage, options.rms_allowance);
+      if (shown.evaluation.verdict == StageVerdict::passes) continue;
       trial.detected = k;
-      trial.evaluation = evaluation;
-      if (evaluation.worst) trial.measured = value_of(*evaluation.worst, seen);
+      trial.evaluation = shown.evaluation;
+      trial.measured = shown.measured;
     }
   });
   return trials;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boresight/design/commissioning/stage_quantities.hpp>
+#include <boresight/design/commissioning/stage_simulation.hpp>
 #include <boresight/design/commissioning/trial_antenna.hpp>
 #include <boresight/design/ensembles/plant_distribution.hpp>
 #include <boresight/design/problem/mission.hpp>
@@ -64,10 +65,14 @@ struct FaultTrial {
 };
 
 /// Runs the stages, but for the one as found, on the antenna with each fault. What is shown is the
-/// antenna as the engineer measures it, the stated sensors' noise included.
+/// antenna as the engineer measures it, the stated sensors' noise included. With `experiments`, one
+/// a stage, steps and moves are those of the nonlinear antenna (simulate_stage), evaluated as a
+/// record of the stage is; without, those of the linear plant. Takes up to a second per stage and
+/// fault then.
 std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPlan& plan,
                                    const CommandedMove& move,
                                    const std::vector<AntennaFault>& faults,
-                                   const TrialOptions& options);
+                                   const TrialOptions& options,
+                                   const std::vector<StageExperiment>& experiments = {});
 
 }  // namespace boresight::design

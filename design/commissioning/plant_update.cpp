@@ -23,9 +23,11 @@ constexpr std::size_t most_times = 16, most_times_unexplained = 4;
 constexpr double tail = 0.025;
 constexpr double certainty = 0.99;
 
-double squared_difference(const MeasuredQuantity& measured, const StageObservation& seen) {
-  const double difference = measured.value - value_of(measured.quantity, seen);
-  return std::isfinite(difference) ? std::pow(difference / comparison_deviation(measured), 2)
+double squared_difference(const MeasuredQuantity& measured, const CommissioningStage& stage,
+                          const StageObservation& seen) {
+  const double predicted = value_of(measured.quantity, seen);
+  const double difference = measured.value - with_effect(measured.quantity, predicted, stage);
+  return std::isfinite(difference) ? std::pow(difference / comparison_deviation(measured, stage), 2)
                                    : infinity;
 }
 
@@ -34,9 +36,12 @@ double mismatch_of(StageObserver& observer, const CommissioningPlan& plan,
   double sum = 0.0;
   for (const MeasuredStage& record : records) {
     if (record.measurement.quantities.empty()) continue;
-    const StageObservation seen = observer.observe(plan.stages[record.stage].controller);
+    const CommissioningStage& stage = plan.stages[record.stage];
+    const StageObservation seen = observer.observe(stage.controller);
     if (!seen.stable) return infinity;
-    for (const auto& one : record.measurement.quantities) sum += squared_difference(one, seen);
+    for (const auto& one : record.measurement.quantities) {
+      sum += squared_difference(one, stage, seen);
+    }
   }
   return sum;
 }
@@ -134,7 +139,7 @@ void add_inputs(const PlantDistribution& distribution, const std::vector<Drawn>&
 
 }  // namespace
 
-double comparison_deviation(const MeasuredQuantity& measured) {
+double comparison_deviation(const MeasuredQuantity& measured, const CommissioningStage& stage) {
   constexpr double of_rms = 0.1;
   double model = of_rms * measured.value;
   if (measured.quantity == StageQuantity::overshoot) {
@@ -142,10 +147,23 @@ double comparison_deviation(const MeasuredQuantity& measured) {
   } else if (measured.quantity == StageQuantity::rise_time ||
              measured.quantity == StageQuantity::settling_time) {
     model = time_resolution * measured.value;
-  } else if (measured.quantity == StageQuantity::valve_per_rate) {
+  } else if (measured.quantity == StageQuantity::valve_per_rate ||
+             measured.quantity == StageQuantity::flow_per_rate) {
     model = valve_resolution * measured.value;
+  } else if (measured.quantity == StageQuantity::oil_stiffness) {
+    model = stiffness_resolution * measured.value;
   }
-  return std::hypot(measured.uncertainty, model);
+  // Friction torques within their allowance are two deviations.
+  const auto effect =
+      std::ranges::find(stage.effects, measured.quantity, &ExperimentEffect::quantity);
+  double by_friction = 0.0;
+  if (effect != stage.effects.end()) {
+    by_friction = 0.25 * (effect->upper - effect->lower);
+    if (measured.quantity != StageQuantity::overshoot) {
+      by_friction *= measured.value / effect->nominal;
+    }
+  }
+  return std::hypot(measured.uncertainty, model, by_friction);
 }
 
 std::vector<MeasuredStage> combined(const std::vector<MeasuredStage>& records) {

@@ -59,8 +59,9 @@ struct PlantUpdate {
 
 /// Standard deviation to which a prediction is compared with a measurement: its uncertainty and
 /// what the linear model leaves out (the resolutions of stage_quantities.hpp, a tenth of an rms,
-/// whose sensor noise is stated, and of the error of a move), added in quadrature.
-double comparison_deviation(const MeasuredQuantity& measured);
+/// whose sensor noise is stated, and of the error of a move; half of what friction within its
+/// allowance makes of it, by the stage's effects), added in quadrature.
+double comparison_deviation(const MeasuredQuantity& measured, const CommissioningStage& stage);
 
 /// The measurements of each stage in one, in order: of a quantity that several records have the
 /// mean, as what the model leaves out is common to them.

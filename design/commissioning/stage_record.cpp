@@ -228,10 +228,8 @@ Plateau plateau_of(const VectorXd& values) {
 
 // Change of the steady valve command over that of the motor rate: of the fastest steady motion
 // against the start of the record.
-void measure_valve(const ServoRecord& record, StageMeasurement& measurement) {
-  if (!record.motor_rate || !record.valve_command) return;
-  const Signal& rate = *record.motor_rate;
-  const Signal& valve = *record.valve_command;
+void measure_valve(const Signal& rate, const Signal& valve, StageQuantity quantity,
+                   StageMeasurement& measurement) {
   const Index before = std::max<Index>(rate.values.size() / 20, 2);
   const double start = rate.values.head(before).mean();
   const Index reach = std::max<Index>(rate.values.size() / 400, 1);
@@ -260,9 +258,27 @@ void measure_valve(const ServoRecord& record, StageMeasurement& measurement) {
                                      deviation(valve.values, 0, before));
   const double of_rate = std::hypot(deviation(rate.values, plateau.first, plateau.count),
                                     deviation(rate.values, 0, before));
-  measurement.quantities.push_back({StageQuantity::valve_per_rate, ratio,
-                                    std::hypot(of_valve, ratio * of_rate) / std::abs(rate_change),
-                                    0});
+  measurement.quantities.push_back(
+      {quantity, ratio, std::hypot(of_valve, ratio * of_rate) / std::abs(rate_change), 0});
+}
+
+// What valve command, rate and torque say of the drive, whatever the command.
+void measure_drive(const ServoRecord& record, const CommissioningStage& stage, bool rate_changes,
+                   StageMeasurement& measurement) {
+  if (!record.motor_rate || !record.valve_command) return;
+  if (rate_changes) {
+    measure_valve(*record.motor_rate, *record.valve_command, StageQuantity::valve_per_rate,
+                  measurement);
+  }
+  if (!stage.flow || !record.motor_torque) return;
+  if (rate_changes) {
+    measure_valve(*record.motor_rate, valve_flow(record, *stage.flow), StageQuantity::flow_per_rate,
+                  measurement);
+  }
+  if (const auto spring = oil_spring(record, *stage.flow)) {
+    measurement.quantities.push_back(
+        {StageQuantity::oil_stiffness, spring->stiffness, spring->uncertainty, 0});
+  }
 }
 
 bool predicts(const CommissioningStage& stage, StageQuantity quantity) {
@@ -307,11 +323,11 @@ StageMeasurement measure_stage(const ServoRecord& record, const CommissioningSta
                                                 open ? "tachometer" : "encoder"));
     } else {
       measure_steps(*command, *response, steps, record.sample_time, stage, measurement);
-      if (open) measure_valve(record, measurement);
+      measure_drive(record, stage, open, measurement);
     }
   } else if (stage.controller.feedforward && record.position_error) {
     measure_move(*record.position_error, stage, record.sample_time, gear_ratio, measurement);
-    measure_valve(record, measurement);
+    measure_drive(record, stage, true, measurement);
   } else {
     measurement.remarks.emplace_back(
         "the command moves without a step: neither a step nor still air can be read from it");

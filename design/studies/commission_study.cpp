@@ -4,6 +4,7 @@
 
 #include <boresight/design/studies/commission_study.hpp>
 #include <boresight/numerics/angles.hpp>
+#include <boresight/numerics/parallel_loop.hpp>
 #include <boresight/plant/nonlinear/drive_capability.hpp>
 
 namespace boresight::design {
@@ -47,6 +48,20 @@ std::optional<double> disallowed_limit_cycle(const Mission& mission, const Track
     return std::nullopt;
   return limit_cycle_runs_complete(run->limit_cycles) ? limit_cycle_amplitude(run->limit_cycles)
                                                       : std::numeric_limits<double>::infinity();
+}
+
+void add_experiments(const Mission& mission, unsigned threads, CommissionStudy& study) {
+  if (!mission.antenna.nonlinear) return;
+  auto& stages = study.plan.stages;
+  const FlowModel flow = flow_model(mission);
+  for (auto& stage : stages) stage.flow = flow;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    study.experiments.push_back(stage_experiment(
+        mission, stages[i], plant::sky_to_motor(mission.antenna, study.steps[i]), study.move));
+  }
+  numerics::for_each_index(stages.size(), threads, [&](std::size_t i) {
+    stages[i].effects = experiment_effects(mission, stages[i], study.experiments[i]);
+  });
 }
 
 // Places of the gains that act.
@@ -108,6 +123,7 @@ CommissionStudy study_commission(const Mission& mission, const PlantEnsemble& en
   for (const auto& stage : study.plan.stages) {
     study.steps.push_back(step_of(mission.antenna, stage));
   }
+  add_experiments(mission, options.threads, study);
   study.limit_cycle = disallowed_limit_cycle(mission, study.problem, target, seed);
   return study;
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boresight/design/commissioning/commissioning.hpp>
+#include <boresight/design/commissioning/stage_simulation.hpp>
 #include <boresight/design/ensembles/plant_members.hpp>
 #include <boresight/design/studies/controller_study.hpp>
 
@@ -21,6 +22,10 @@ struct CommissionStudy {
   /// fifth of the valve's stroke and of the supply's torque. It is at most a fifth of the slew
   /// rate, or 100 mdeg. NaN where a plant is unstable.
   std::vector<double> steps;
+  /// How each stage is checked: those steps, or the move, on a steady motion. Its effects and flow
+  /// (CommissioningStage) are those of the nonlinear antenna. Empty without Antenna::nonlinear, and
+  /// effects and flow too.
+  std::vector<StageExperiment> experiments;
   /// Boresight amplitude (rad) of the controller's limit cycle on the nonlinear antenna, if it
   /// exceeds the allowed one. Infinite if a run without wind did not complete. None if it does not
   /// exceed it, and without Antenna::nonlinear.

@@ -26,7 +26,7 @@ StageStudy study_stages(const Mission& mission, const PlantDistribution& distrib
   StageStudy result;
   const bool torque = plan.stages.back().controller.controller.structure.feeds_torque_back();
   const auto faults = usual_faults(options.motors, torque);
-  result.faults = try_faults(mission, plan, study.move, faults, options);
+  result.faults = try_faults(mission, plan, study.move, faults, options, study.experiments);
   if (options.fresh_plants > 0) {
     result.trials =
         try_stages(mission, distribution, plan, study.move, options.fresh_plants, options);

@@ -19,6 +19,7 @@ struct ServoRecord {
   std::optional<Signal> rate_command;      // rad/s of motor
   std::optional<Signal> motor_rate;        // rad/s of motor
   std::optional<Signal> valve_command;     // rad/s of no-load motor speed
+  std::optional<Signal> motor_torque;      // N m, of all motors, by the pressure difference
   std::optional<Signal> wind_speed;        // m/s
   std::optional<Signal> wind_direction;    // rad, continuous through full turns
 };

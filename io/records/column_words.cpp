@@ -85,6 +85,14 @@ bool is_rate_command(const std::vector<std::string>& words) {
   return is_command(words) && is_rate(words) && !is_valve(words);
 }
 
+bool is_motor_torque(const std::vector<std::string>& words) {
+  constexpr std::array<std::string_view, 1> torque{"torque"};
+  constexpr std::array<std::string_view, 1> pressure{"pressure"};
+  constexpr std::array<std::string_view, 3> difference{"difference", "differential", "delta"};
+  return !is_command(words) &&
+         (has_any(words, torque) || (has_any(words, pressure) && has_any(words, difference)));
+}
+
 bool is_time(const std::vector<std::string>& words) {
   return words.size() <= 2 && !words.empty() &&
          (words[0] == "time" || words[0] == "timestamp" || (words.size() == 1 && words[0] == "t"));

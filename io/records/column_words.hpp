@@ -31,6 +31,7 @@ bool is_rate(const std::vector<std::string>& words);
 bool is_valve(const std::vector<std::string>& words);
 bool is_tachometer(const std::vector<std::string>& words);
 bool is_rate_command(const std::vector<std::string>& words);
+bool is_motor_torque(const std::vector<std::string>& words);
 bool is_time(const std::vector<std::string>& words);
 bool is_wind(const std::vector<std::string>& words);
 bool is_error(const std::vector<std::string>& words);

@@ -32,6 +32,8 @@ class ServoChooser {
     result_.tachometer = named_or_guessed(entry_.tachometer, {voltage, rate}, own(is_tachometer));
     result_.rate_command = named_or_guessed(entry_.rate_command, commands, own(is_rate_command));
     result_.valve_command = named_or_guessed(entry_.valve_command, commands, own(is_valve));
+    result_.motor_torque = chooser_.guessed(
+        {dimension_of(Kind::torque), dimension_of(Kind::pressure), voltage}, own(is_motor_torque));
     result_.wind_speed = chooser_.guessed({dimension_of(Kind::speed)}, is_wind);
     result_.wind_direction = chooser_.guessed({angle}, is_wind);
     result_.boresight_error = position({angle}, [](const Words& words) {

@@ -15,7 +15,7 @@ struct ServoColumns {
   /// Absent only where the case states the sample rate.
   std::optional<ChosenColumn> time;
   std::optional<ChosenColumn> position_command, encoder, position_error, boresight_error;
-  std::optional<ChosenColumn> rate_command, tachometer, valve_command;
+  std::optional<ChosenColumn> rate_command, tachometer, valve_command, motor_torque;
   std::optional<ChosenColumn> wind_speed, wind_direction;
   /// Of columns that the case names and the file has not, a sentence each.
   std::vector<std::string> remarks;
@@ -30,6 +30,7 @@ struct ServoColumns {
 ///   position command command, reference, setpoint or demand, not of a rate
 ///   encoder          encoder or enc, else position, angle or the axis
 ///   rate command, tachometer, valve command: as choose_columns
+///   motor torque     torque; or pressure with difference, differential or delta
 /// Columns of the other axis (az, azimuth; el, elevation) are passed over. A column of another kind
 /// of unit is not guessed, and nothing that two columns could be.
 /// @throws InvalidInput without a column for the time where the case states no sample rate; lists

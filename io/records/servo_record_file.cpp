@@ -12,6 +12,7 @@
 #include <boresight/io/case/case_computer.hpp>
 #include <boresight/io/case/case_file.hpp>
 #include <boresight/io/case/case_simulation.hpp>
+#include <boresight/io/case/drive_numbers.hpp>
 #include <boresight/io/case/tested_drive_of.hpp>
 #include <boresight/io/records/column_names.hpp>
 #include <boresight/io/records/column_words.hpp>
@@ -65,6 +66,7 @@ class ServoReader {
     record.rate_command = rate_command(chosen.rate_command);
     record.motor_rate = motor_rate(chosen.tachometer);
     record.valve_command = valve_command(chosen.valve_command);
+    record.motor_torque = motor_torque(chosen.motor_torque);
     record.wind_speed = wind_speed(chosen.wind_speed);
     record.wind_direction = angle(chosen.wind_direction, "wind direction", true);
     if (signals_ == 0) {
@@ -280,6 +282,24 @@ class ServoReader {
                            "full scale in [computer],");
     }
     return scaled(column, column.unit.factor * *scale);
+  }
+
+  // Of all motors, by the pressure difference between their ports.
+  std::optional<Signal> motor_torque(const std::optional<ChosenColumn>& chosen) {
+    if (!chosen || lacks_unit(*chosen)) return std::nullopt;
+    MeasuredColumn column = measured(*chosen, std::nullopt, "motor torque", "");
+    double scale = 1.0;
+    if (column.unit.dimension != dimension_of(Kind::torque)) {
+      scale = plant::torque_per_pressure(hydraulic_drive(antenna_));
+    }
+    if (column.unit.dimension == dimension_of(Kind::voltage)) {
+      const auto& computer = antenna_.computer;
+      if (!computer || !computer->transducer_pressure || !computer->transducer_voltage) {
+        return without_scale(column, "computer.transducer_pressure and transducer_voltage");
+      }
+      scale *= computer->transducer_pressure->value / computer->transducer_voltage->value;
+    }
+    return scaled(column, column.unit.factor * scale);
   }
 
   static Signal difference(const Signal& command, const Signal& encoder) {

@@ -1,5 +1,6 @@
 """Identification, tuning, matching and simulation against the program's own reports."""
 
+import json
 import math
 import os
 import pathlib
@@ -170,3 +171,56 @@ def test_simulation_writes_what_the_program_writes(antenna, case_path, tmp_path)
     assert len({len(values) for values in record.columns.values()}) == 1
     with pytest.raises(ValueError, match="swimming"):
         boresight.simulate(antenna, "swimming")
+
+
+PI_GAINS = {"kr": 0.0385493335, "wi": 0.211510677, "wp": 2.77144589, "kp": 30.0, "wip": 0.17920227}
+
+
+def gains_file(folder):
+    path = folder / "gains.toml"
+    path.write_text("[gains]\nstructure = 'PI'\n" + "".join(
+        f"{symbol} = '{value!r}{unit}'\n" for (symbol, value), unit in
+        zip(PI_GAINS.items(), ["", " rad/s", " rad/s", " 1/s", " rad/s"])), encoding="utf-8")
+    return path
+
+
+def test_export_writes_what_the_program_writes(antenna, case_path, tmp_path):
+    subprocess.run([PROGRAM, "export", case_path, "--gains", str(gains_file(tmp_path)), "--folder",
+                    str(tmp_path / "code")], capture_output=True, check=True)
+    exported = boresight.export(antenna, boresight.controller("PI", PI_GAINS), structure="PI")
+    written = {str(path.relative_to(tmp_path / "code")): path.read_text(encoding="utf-8")
+               for path in (tmp_path / "code").rglob("*") if path.is_file()}
+    assert set(exported.files) == set(written)
+    # The heads of code say where the controller comes from.
+    same = [name for name in written if exported.files[name] == written[name]]
+    assert {"gains.toml"} | {name for name in written if name.startswith("vectors/")} <= set(same)
+    parameters = exported.to_dict()
+    program = json.loads(written["servo_controller.json"])
+    assert [key for key in program if program[key] != parameters[key]] in ([], ["source"])
+    assert exported.sample_time == 0.02
+    assert exported.gains["wi"] == PI_GAINS["wi"]
+    assert exported.gains["Kir"] == pytest.approx(PI_GAINS["kr"] * PI_GAINS["wi"])
+    with pytest.raises(boresight.InvalidInput, match="fortran"):
+        boresight.export(antenna, boresight.controller("PI", PI_GAINS), structure="PI",
+                         languages=["fortran"])
+
+
+def test_commissioning_says_what_the_program_says(case_path, tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(pathlib.Path(case_path).read_text(encoding="utf-8") + "\n[ensemble]\ndraws = 1\n",
+                    encoding="utf-8")
+    report = json.loads(subprocess.run(
+        [PROGRAM, "commission", str(path), "--gains", str(gains_file(tmp_path)), "--json", "-"],
+        capture_output=True, check=True).stdout)
+    plan = boresight.commission(boresight.read_case(str(path)), boresight.controller("PI", PI_GAINS),
+                                structure="PI")
+    assert plan.to_dict()["stages"] == report["stages"]
+    assert plan.to_dict()["faults"] == report["faults"]
+    assert plan.faults == {one["fault"]: one["stage"] for one in report["faults"]}
+    assert len(plan.stages) == len(report["stages"])
+    assert plan.stages[-1].controller.gains == pytest.approx(PI_GAINS)
+    for stage, row in zip(plan.stages, report["stages"]):
+        assert [check.quantity for check in stage.checks] == [one["quantity"] for one in row["checks"]]
+        assert [check.upper for check in stage.checks] == [one["upper"] for one in row["checks"]]
+    with pytest.raises(boresight.InvalidInput, match="XYZ"):
+        boresight.commission(boresight.read_case(str(path)), structure="XYZ")

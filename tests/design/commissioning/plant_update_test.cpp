@@ -134,10 +134,10 @@ TEST(CombinedRecords, HaveTheMeanOfWhatSeveralMeasured) {
 }
 
 TEST(ComparisonDeviation, AddsWhatTheModelLeavesOut) {
-  EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::rise_time, 2.0, 0.08, 1}), 0.1);
-  EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::overshoot, 0.5, 0.0, 1}),
+  EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::rise_time, 2.0, 0.08, 1}, {}), 0.1);
+  EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::overshoot, 0.5, 0.0, 1}, {}),
                    overshoot_resolution);
-  EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::calm_valve, 2.0, 0.0, 0}), 0.2);
+  EXPECT_DOUBLE_EQ(comparison_deviation({StageQuantity::calm_valve, 2.0, 0.0, 0}, {}), 0.2);
 }
 
 }  // namespace

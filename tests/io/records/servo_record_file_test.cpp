@@ -61,6 +61,21 @@ class ReadServoRecord : public testing::Test {
   ServoRecordNotes notes;
 };
 
+// The pressure difference between the ports, and the torque that the computer makes of it.
+TEST_F(ReadServoRecord, TakesThePressureDifferenceAsTheMotorTorque) {
+  const double torque = plant::torque_per_pressure(hydraulic_drive(antenna));
+  const ServoRecord pressure = read("time [s],pressure difference [MPa]", "2.5");
+  ASSERT_TRUE(pressure.motor_torque.has_value());
+  EXPECT_NEAR(pressure.motor_torque->values[3], 2.5e6 * torque, 1e-9);
+  const ServoRecord shown = read("time [s],motor torque [N.m]", "40");
+  ASSERT_TRUE(shown.motor_torque.has_value());
+  EXPECT_DOUBLE_EQ(shown.motor_torque->values[3], 40.0);
+  // Volts have no scale without [computer], and wind torque is none of the motors.
+  const ServoRecord volts = read("time [s],torque [V],tach [V]", "1,1");
+  EXPECT_FALSE(volts.motor_torque.has_value());
+  EXPECT_FALSE(read("time [s],wind torque [N.m],tach [V]", "1,1").motor_torque.has_value());
+}
+
 TEST_F(ReadServoRecord, ConvertsEverySignalToSiUnits) {
   const ServoRecord record = read(
       "time [s],El Encoder [deg],El Position Command [deg],Position error [mdeg],Boresight "

@@ -8,23 +8,26 @@
 #include <gtest/gtest.h>
 
 #include "design/commissioning/planned_stages.hpp"
+#include <boresight/control/controllers/controller.hpp>
+#include <boresight/control/controllers/sampled_controller.hpp>
 #include <boresight/design/commissioning/commissioning_trials.hpp>
 #include <boresight/design/commissioning/plant_update.hpp>
 #include <boresight/design/commissioning/stage_record.hpp>
 #include <boresight/design/commissioning/stage_simulation.hpp>
 #include <boresight/numerics/angles.hpp>
+#include <boresight/plant/linear/interconnection.hpp>
 
 namespace boresight::design {
 namespace {
 
 // The stages to pressure feedback on the demo antenna, with their experiments.
 struct Experiments {
-  const reference::PlannedStages& planned = reference::fast_stages();
+  const reference::PlannedStages& planned;
   double gear = plant::gear_ratio(planned.mission.antenna);
   CommissioningPlan plan = planned.plan;
   std::vector<StageExperiment> experiments;
 
-  Experiments() {
+  explicit Experiments(const reference::PlannedStages& of_plan) : planned(of_plan) {
     for (CommissioningStage& stage : plan.stages) {
       const double step =
           stage.controller.position_open ? 10.0 * millidegree * gear : 20.0 * millidegree * gear;
@@ -42,7 +45,7 @@ struct Experiments {
 };
 
 const Experiments& prepared() {
-  static const Experiments experiments;
+  static const Experiments experiments(reference::fast_stages());
   return experiments;
 }
 
@@ -80,6 +83,28 @@ TEST(SimulateStage, OfTheAntennaAsStatedPassesEveryStage) {
     }
   }
   EXPECT_GE(quantities, 18 * stages.plan.stages.size());
+}
+
+// It replaces the gains as a whole, so that its stages have moves alone.
+TEST(SimulateStage, OfAStateSpacePassesItsMoves) {
+  const control::Controller loops{control::LoopStructure::named("FULL+L"),
+                                  {0.8, 7.0, 40.0, 0.1, 30.0, 0.4, 1.0, 10.0}};
+  const reference::PlannedStages planned(control::state_space_controller(
+      "of loops", plant::subsystem(control::sampled_controller(loops, 0.02),
+                                   {"tachometer", "encoder", "motor_torque"}, {"valve_demand"})));
+  const Experiments stages(planned);
+  ASSERT_GE(stages.plan.stages.size(), 2U);
+  for (std::size_t i = 0; i < stages.plan.stages.size(); ++i) {
+    ASSERT_TRUE(stages.plan.stages[i].controller.feedforward);
+    for (const double friction : {0.8, 1.2}) {
+      StageSimulationOptions options;
+      options.friction = friction;
+      const auto shown = evaluated(stages.measure(i, options), stages.plan.stages[i], 1.2);
+      EXPECT_GE(shown.size(), 2U) << i;
+      EXPECT_EQ(worst_verdict(shown), StageVerdict::passes)
+          << "stage " << i + 1 << ", friction x " << friction << ": " << in_words(shown);
+    }
+  }
 }
 
 // What made the brackets of the linear plants useless for a record: friction and orifices slow the

@@ -344,8 +344,10 @@ std::vector<ExperimentEffect> experiment_effects(const Mission& mission,
                                                  const StageExperiment& experiment) {
   const bool steps = !stage.controller.feedforward;
   if (!stage.expected.all_stable() || (steps && !std::isfinite(experiment.step))) return {};
-  std::array<StageMeasurement, 3> shown;
-  constexpr std::array frictions{1.0, 1.0 - friction_allowance, 1.0 + friction_allowance};
+  // What is fed forward is least wrong where the friction is as large as that.
+  const std::array frictions{1.0, 1.0 - friction_allowance, SimulatedLoop{}.friction_feedforward,
+                             1.0 + friction_allowance};
+  std::array<StageMeasurement, 4> shown;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     StageSimulationOptions options;
     options.friction = frictions.at(i);
@@ -359,7 +361,7 @@ std::vector<ExperimentEffect> experiment_effects(const Mission& mission,
   for (const StageQuantity quantity : measured_quantities(stage)) {
     if (is_rms(quantity)) continue;
     const double linear = expected_of(quantity, stage.expected).nominal;
-    std::array<double, 3> effect{};
+    std::array<double, 4> effect{};
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const MeasuredQuantity* one = found_in(shown.at(i), quantity);
       effect.at(i) = one == nullptr ? std::numeric_limits<double>::quiet_NaN()

@@ -174,19 +174,22 @@ def test_simulation_writes_what_the_program_writes(antenna, case_path, tmp_path)
 
 
 PI_GAINS = {"kr": 0.0385493335, "wi": 0.211510677, "wp": 2.77144589, "kp": 30.0, "wip": 0.17920227}
+DPF_GAINS = {"kr": 1.42966599, "wi": 2.037972, "wp": 300.0, "kT": 0.200135464, "wd": 5.23841828,
+             "kp": 1.13712342, "wip": 0.283509275}
+UNITS = {"kr": "", "kT": " rad/(s.N.m)", "kp": " 1/s"}
 
 
-def gains_file(folder):
+def gains_file(folder, structure, gains):
     path = folder / "gains.toml"
-    path.write_text("[gains]\nstructure = 'PI'\n" + "".join(
-        f"{symbol} = '{value!r}{unit}'\n" for (symbol, value), unit in
-        zip(PI_GAINS.items(), ["", " rad/s", " rad/s", " 1/s", " rad/s"])), encoding="utf-8")
+    path.write_text(f"[gains]\nstructure = '{structure}'\n" + "".join(
+        f"{symbol} = '{value!r}{UNITS.get(symbol, ' rad/s')}'\n" for symbol, value in gains.items()),
+        encoding="utf-8")
     return path
 
 
 def test_export_writes_what_the_program_writes(antenna, case_path, tmp_path):
-    subprocess.run([PROGRAM, "export", case_path, "--gains", str(gains_file(tmp_path)), "--folder",
-                    str(tmp_path / "code")], capture_output=True, check=True)
+    subprocess.run([PROGRAM, "export", case_path, "--gains",
+                    str(gains_file(tmp_path, "PI", PI_GAINS)), "--folder", str(tmp_path / "code")], capture_output=True, check=True)
     exported = boresight.export(antenna, boresight.controller("PI", PI_GAINS), structure="PI")
     written = {str(path.relative_to(tmp_path / "code")): path.read_text(encoding="utf-8")
                for path in (tmp_path / "code").rglob("*") if path.is_file()}
@@ -196,7 +199,7 @@ def test_export_writes_what_the_program_writes(antenna, case_path, tmp_path):
     assert {"gains.toml"} | {name for name in written if name.startswith("vectors/")} <= set(same)
     parameters = exported.to_dict()
     program = json.loads(written["servo_controller.json"])
-    assert [key for key in program if program[key] != parameters[key]] in ([], ["source"])
+    assert [key for key in program if program[key] != parameters[key]] == ["notes"]
     assert exported.sample_time == 0.02
     assert exported.gains["wi"] == PI_GAINS["wi"]
     assert exported.gains["Kir"] == pytest.approx(PI_GAINS["kr"] * PI_GAINS["wi"])
@@ -210,15 +213,16 @@ def test_commissioning_says_what_the_program_says(case_path, tmp_path):
     path.write_text(pathlib.Path(case_path).read_text(encoding="utf-8") + "\n[ensemble]\ndraws = 1\n",
                     encoding="utf-8")
     report = json.loads(subprocess.run(
-        [PROGRAM, "commission", str(path), "--gains", str(gains_file(tmp_path)), "--json", "-"],
+        [PROGRAM, "commission", str(path), "--gains",
+         str(gains_file(tmp_path, "DPF", DPF_GAINS)), "--json", "-"],
         capture_output=True, check=True).stdout)
-    plan = boresight.commission(boresight.read_case(str(path)), boresight.controller("PI", PI_GAINS),
-                                structure="PI")
+    plan = boresight.commission(boresight.read_case(str(path)), boresight.controller("DPF", DPF_GAINS),
+                                structure="DPF")
     assert plan.to_dict()["stages"] == report["stages"]
     assert plan.to_dict()["faults"] == report["faults"]
     assert plan.faults == {one["fault"]: one["stage"] for one in report["faults"]}
     assert len(plan.stages) == len(report["stages"])
-    assert plan.stages[-1].controller.gains == pytest.approx(PI_GAINS)
+    assert plan.stages[-1].controller.gains == pytest.approx(DPF_GAINS)
     for stage, row in zip(plan.stages, report["stages"]):
         assert [check.quantity for check in stage.checks] == [one["quantity"] for one in row["checks"]]
         assert [check.upper for check in stage.checks] == [one["upper"] for one in row["checks"]]

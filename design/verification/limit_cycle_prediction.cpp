@@ -66,6 +66,18 @@ Complex bull_gear_per_motor(const plant::StructureResponse& structure, Index i) 
          (structure.gear_stiffness[i] + structure.inertial_stiffness[i]);
 }
 
+// Of frequencies by amplitudes.
+template <typename Answers>
+void resize(Answers& answers, Index rows, Index columns) {
+  answers.valve.resize(rows);
+  answers.opening.resize(rows, columns);
+  answers.amplitude.resize(rows, columns);
+  for (auto* one :
+       {&answers.tachometer, &answers.torque, &answers.middle_reading, &answers.edge_reading}) {
+    one->resize(rows, columns);
+  }
+}
+
 Complex dead_time(const SimulatedLoop& loop, double frequency) {
   return std::polar(1.0, -1.5 * loop.sample_time * frequency);
 }
@@ -129,13 +141,7 @@ LimitCyclePrediction::Answers LimitCyclePrediction::slow_answers(const Simulated
   Answers answers;
   answers.structure = plant::structure_response(loop.linear.structure, frequency);
   const Index rows = frequency.size(), columns = openings.size();
-  answers.valve.resize(rows);
-  answers.opening.resize(rows, columns);
-  answers.amplitude.resize(rows, columns);
-  for (auto* one :
-       {&answers.tachometer, &answers.torque, &answers.middle_reading, &answers.edge_reading}) {
-    one->resize(rows, columns);
-  }
+  resize(answers, rows, columns);
   numerics::for_each_index(static_cast<std::size_t>(rows), threads, [&](std::size_t row) {
     const auto i = static_cast<Index>(row);
     const Complex s{0.0, frequency[i]};
@@ -177,13 +183,7 @@ LimitCyclePrediction::Answers LimitCyclePrediction::fast_answers(const Simulated
   Answers answers;
   answers.structure = plant::structure_response(loop.linear.structure, frequency);
   const Index rows = frequency.size(), columns = amplitude.size();
-  answers.valve.resize(rows);
-  answers.opening.resize(rows, columns);
-  answers.amplitude.resize(rows, columns);
-  for (auto* one :
-       {&answers.tachometer, &answers.torque, &answers.middle_reading, &answers.edge_reading}) {
-    one->resize(rows, columns);
-  }
+  resize(answers, rows, columns);
   for (Index i = 0; i < rows; ++i) {
     answers.valve[i] = dead_time(loop, frequency[i]);
     const double gear = std::abs(bull_gear_per_motor(answers.structure, i));

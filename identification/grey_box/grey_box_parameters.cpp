@@ -237,7 +237,9 @@ void GreyBoxParameters::add_hydraulics(const Campaign& campaign,
   set(case_leakage, "leakage to the case", "rad/s per N m", 0.1 * leakage, 1.2, false);
   set(valve_gain, "valve scale", "", 1.0, campaign.instruments.valve_scale, true);
   set(valve_lag, "valve lag", "s", 0.005, 0.8, false);
-  set(supply_torque, "supply pressure as torque", "N m", units_.supply_torque, 0.01, true);
+  constexpr double min_supply_spread = 0.01;
+  set(supply_torque, "supply pressure as torque", "N m", units_.supply_torque,
+      std::max(min_supply_spread, k.supply_uncertainty / k.supply_pressure), true);
   // Predictions reach ahead over a quarter radian of the hydraulic mode: far enough that torque and
   // flow balances count and not only the recorder's last sample, near enough that wind and small
   // errors of the flow do not add up. Fixed: left to the fit, they would serve ripple and noise at

@@ -83,6 +83,8 @@ struct DriveKnowledge {
   /// Of the structure on a locked rotor, rising, Hz.
   std::vector<numerics::Uncertain> locked_rotor_frequencies;
   double supply_pressure = 0.0;  // Pa
+  /// Standard, Pa; the fit of all records takes at least 1 % of the pressure.
+  double supply_uncertainty = 0.0;
   double return_pressure = 0.0;  // Pa
   /// Motor speed at which the antenna tracks a star, rad/s.
   double tracking_rate = 0.0;

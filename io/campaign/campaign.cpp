@@ -154,6 +154,7 @@ identification::DriveKnowledge drive_knowledge(const Case& antenna, CampaignNote
                     antenna.structure->locked_rotor_frequency.key));
   }
   knowledge.supply_pressure = antenna.drive->supply_pressure.value;
+  knowledge.supply_uncertainty = uncertain(antenna.drive->supply_pressure).standard_uncertainty;
   if (antenna.campaign->return_pressure) {
     knowledge.return_pressure = antenna.campaign->return_pressure->value;
   } else if (antenna.simulation) {

@@ -182,6 +182,17 @@ TEST(GreyBoxParameters, TakeNoGearsForKnownAndABulkModulusForWhatItIs) {
               ThrowsMessage<InvalidInput>(HasSubstr("gear inertia")));
 }
 
+TEST(GreyBoxParameters, KnowTheSupplyAsWellAsStatedAndNoBetterThanOnePercent) {
+  Campaign campaign{synthetic::knowledge(), synthetic::instruments(), {}};
+  const auto spread = [&](double relative) {
+    campaign.knowledge.supply_uncertainty = relative * campaign.knowledge.supply_pressure;
+    return GreyBoxParameters(campaign, {synthetic::glance()}, bulk).list()[P::supply_torque].spread;
+  };
+  EXPECT_EQ(spread(0.0), 0.01);
+  EXPECT_EQ(spread(0.001), 0.01);
+  EXPECT_DOUBLE_EQ(spread(0.04), 0.04);
+}
+
 TEST(GreyBoxParameters, TakeBothEfficienciesIntoTheSpringWhateverTheConvention) {
   Campaign campaign{synthetic::knowledge(), synthetic::instruments(), {}};
   const GreyBoxParameters with(campaign, {synthetic::glance()}, bulk);

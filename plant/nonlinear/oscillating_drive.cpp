@@ -61,7 +61,7 @@ class OscillatingDrive {
       (excess > 0.0 ? high : low) = w;
       double next =
           w - excess / (slope_ + friction_slope(drive_.friction, w) + drive_.viscous_friction);
-      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      if (next <= low || next >= high) next = 0.5 * (low + high);
       const bool close = std::abs(next - w) <= accuracy * next;
       w = next;
       if (close) break;

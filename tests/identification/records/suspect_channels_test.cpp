@@ -38,13 +38,12 @@ ChannelCheck suspect(ChannelCheck::Channel channel, ChannelQuantity quantity) {
 }
 
 TEST(Contradicts, IsOfUsedValuesAndNotOfTheEncodersSignZeroAndDelay) {
-  using Channel = ChannelCheck::Channel;
-  EXPECT_TRUE(contradicts(suspect(Channel::tachometer, ChannelQuantity::gain)));
+  EXPECT_TRUE(contradicts(suspect(ChannelCheck::Channel::tachometer, ChannelQuantity::gain)));
   for (const auto quantity :
        {ChannelQuantity::sign, ChannelQuantity::zero, ChannelQuantity::delay}) {
-    EXPECT_FALSE(contradicts(suspect(Channel::tachometer, quantity)));
+    EXPECT_FALSE(contradicts(suspect(ChannelCheck::Channel::tachometer, quantity)));
   }
-  ChannelCheck pressure = suspect(Channel::inlet, ChannelQuantity::zero);
+  ChannelCheck pressure = suspect(ChannelCheck::Channel::inlet, ChannelQuantity::zero);
   EXPECT_TRUE(contradicts(pressure));
   pressure.is_used = false;
   EXPECT_FALSE(contradicts(pressure));
@@ -55,9 +54,8 @@ TEST(Contradicts, IsOfUsedValuesAndNotOfTheEncodersSignZeroAndDelay) {
 
 // What one record shows does not explain the others.
 TEST(SuspectChannels, OfOneRecordExplainThatRecordOnly) {
-  using Channel = ChannelCheck::Channel;
-  std::vector<ChannelCheck> rows{suspect(Channel::inlet, ChannelQuantity::gain),
-                                 suspect(Channel::inlet, ChannelQuantity::zero)};
+  std::vector<ChannelCheck> rows{suspect(ChannelCheck::Channel::inlet, ChannelQuantity::gain),
+                                 suspect(ChannelCheck::Channel::inlet, ChannelQuantity::zero)};
   EXPECT_EQ(unexplained_suspects(rows), std::vector<std::size_t>{0});
   rows[0].record = "one";
   EXPECT_EQ(unexplained_suspects(rows).size(), 2U);

@@ -3,6 +3,8 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,6 +15,7 @@
 #include <boresight/identification/signals/spectrum.hpp>
 #include <boresight/numerics/angles.hpp>
 #include <boresight/numerics/error.hpp>
+#include <boresight/numerics/statistics/order_statistics.hpp>
 
 namespace boresight::design {
 namespace {
@@ -206,17 +209,24 @@ void measure_move(const Signal& error, const CommissioningStage& stage, double s
                                     gear_ratio * of_largest * noise, 0});
 }
 
-// Mean over the middle of a stretch in which the values are about their largest.
+// The middle of the longest stretch in which the values are about their level while they are away
+// from 0: the median of those above half of the largest, which may be an overshoot.
 struct Plateau {
   Index first = 0, count = 0;
 };
 
 Plateau plateau_of(const VectorXd& values) {
-  constexpr double about_largest = 0.95;
-  const double level = about_largest * values.cwiseAbs().maxCoeff();
+  const double half = 0.5 * values.cwiseAbs().maxCoeff();
+  std::vector<double> away;
+  for (Index k = 0; k < values.size(); ++k) {
+    if (std::abs(values[k]) > half) away.push_back(std::abs(values[k]));
+  }
+  if (away.empty()) return {};
+  const double level = numerics::median(std::move(away));
+  constexpr double about = 0.1;
   Plateau best, here;
   for (Index k = 0; k < values.size(); ++k) {
-    if (std::abs(values[k]) < level) {
+    if (std::abs(std::abs(values[k]) - level) > about * level) {
       here = {k + 1, 0};
       continue;
     }

@@ -154,6 +154,26 @@ TEST(MeasureStage, ReadsTheValveCommandThatARateTakes) {
             StageVerdict::outside);
 }
 
+TEST(MeasureStage, ReadsTheValveCommandOfARateThatOvershoots) {
+  const CommissioningStage& stage = stage_with(true);
+  identification::ServoRecord record;
+  record.name = "overshoot";
+  record.sample_time = sample_time;
+  constexpr Index count = 6000;
+  VectorXd rate(count), command(count);
+  for (Index k = 0; k < count; ++k) {
+    const bool moves = k >= count / 3 && k < 2 * count / 3;
+    const double since = sample_time * static_cast<double>(k - count / 3);
+    command[k] = moves ? 3.0 : 2.0;
+    rate[k] = moves ? 3.0 + 0.4 * std::exp(-since / 2.0) : 2.0;
+  }
+  record.rate_command = identification::Signal{command, {}};
+  record.motor_rate = identification::Signal{rate, {}};
+  record.valve_command = identification::Signal{1.2 * rate, {}};
+  const auto measured = measure_stage(record, stage, 1.0);
+  EXPECT_NEAR(quantity_of(measured, StageQuantity::valve_per_rate).value, 1.2, 1e-6);
+}
+
 // A slow motion that is commanded in steps of its resolution is as good as rest.
 TEST(MeasureStage, ReadsStillAirOnASlowQuantisedMotion) {
   const CommissioningStage& stage = stage_with(false);

@@ -218,8 +218,8 @@ struct Plateau {
 Plateau plateau_of(const VectorXd& values) {
   const double half = 0.5 * values.cwiseAbs().maxCoeff();
   std::vector<double> away;
-  for (Index k = 0; k < values.size(); ++k) {
-    if (std::abs(values[k]) > half) away.push_back(std::abs(values[k]));
+  for (const double value : values) {
+    if (std::abs(value) > half) away.push_back(std::abs(value));
   }
   if (away.empty()) return {};
   const double level = numerics::median(std::move(away));

@@ -163,29 +163,6 @@ TEST(Verification, RefusesADeadZoneThatHidesAnUnstableLoop) {
   EXPECT_EQ(assess(problem, conditional(20.0), goals).tuning.status, TuningStatus::unstable);
 }
 
-// Stable with the integral and while it holds, but too near the limit to be proven for every error.
-TEST(Verification, RefusesALoopThatPopovDoesNotProve) {
-  const TrackingProblem problem = reference::tracking_problem();
-  Constraints goals;
-  goals.sensitivity_peak = {1e3, 1e3, 1e3};
-  goals.control_effort = 1e3;
-  const Eigen::ArrayXd grid = analysis_grid(problem);
-  const auto is_stable = [&](double corner) {
-    return control::stability(problem.plant, conditional(corner), problem.delay, grid).stable();
-  };
-  double low = 0.01, high = 20.0;
-  ASSERT_TRUE(is_stable(low) && !is_stable(high));
-  while (high > 1.01 * low) {
-    const double middle = std::sqrt(low * high);
-    (is_stable(middle) ? low : high) = middle;
-  }
-  const auto near = verify(problem, conditional(low), goals);
-  EXPECT_TRUE(near.stability.stable());
-  EXPECT_NE(near.failure.find("not proven stable for every error"), std::string::npos)
-      << near.failure;
-  EXPECT_EQ(verify(problem, conditional(0.1 * low), goals).failure, "");
-}
-
 // Within the width the integral keeps what the last motion left.
 TEST(StaticEncoderError, IsTheWidthOfAConditionalIntegral) {
   const TrackingProblem problem = reference::tracking_problem();

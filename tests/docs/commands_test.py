@@ -33,6 +33,7 @@ ELSEWHERE = {
     "./dev bench": "minutes of timing",
     "./dev coverage": "an hour of two cores",
     "./dev faults": "an hour of two cores; tests/faults/faults_test.cpp runs a few",
+    "./dev limit-cycles": "a quarter of an hour; tests/statistical/limit_cycle_prediction_test.cpp runs sixty loops",
     "./dev compare": "minutes, and a program of another build",
     "./dev figures": "draws docs/figures; their numbers are tested by identification_doc and readme",
     "./dev package": "tests/packaging",

@@ -24,13 +24,13 @@ bool enters_inertia_or_stiffness(Index parameter) {
 
 GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const VectorXd& point) {
   GreyBoxConflict conflict;
+  conflict.supply_departure = point(P::supply_torque);
   double entering = 0.0;
   int of_entering = 0;
   for (Index i = 0; i < parameters.size(); ++i) {
     const auto& p = parameters.list()[static_cast<std::size_t>(i)];
     if (!p.from_drawings || !(p.spread > 0.0)) continue;
     const double square = point(i) * point(i);
-    if (i == P::supply_torque) conflict.supply_departure = point(i);
     conflict.sum += square;
     ++conflict.count;
     if (std::abs(point(i)) > std::abs(conflict.departure)) {

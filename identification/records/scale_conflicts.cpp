@@ -87,7 +87,9 @@ std::vector<ScaleConflict> scale_conflicts(const std::vector<const DriveRecord*>
     const auto rate = against_others(by_rate, i);
     const auto valve = against_others(by_valve, i);
     const bool rate_off = rate && is_off(*rate);
-    const bool valve_off = valve && is_off(*valve) && !is_leakage(*valve, is_slow[i]);
+    // A tachometer on another scale takes both gains, leakage that of the valve command alone.
+    const bool leaks = valve && !rate_off && is_leakage(*valve, is_slow[i]);
+    const bool valve_off = valve && is_off(*valve) && !leaks;
     if (rate_off && valve && !valve_off) {
       conflicts.push_back({i, rate_command, 1.0 / *rate});
     } else if (valve_off && rate && !rate_off) {

@@ -21,9 +21,9 @@ struct ScaleConflict {
 /// off by a factor of 3 or more for every command that a record has, its tachometer is on another
 /// scale; where it is for one of two commands, that command is. Leakage under friction's load takes
 /// valve command without rate: in a record below a tenth of the fastest record's rms rate a valve
-/// command is off from a factor of 8 on where it is too large. A record counts where it moves and
-/// has a command that moves; slosh tests do not, nor does a command that fewer than three records
-/// have. Places of missing records (null) stay.
+/// command that is too large is off from a factor of 8 on, unless the rate command is off too. A
+/// record counts where it moves and has a command that moves; slosh tests do not, nor does a
+/// command that fewer than three records have. Places of missing records (null) stay.
 std::vector<ScaleConflict> scale_conflicts(const std::vector<const DriveRecord*>& records);
 
 }  // namespace boresight::identification

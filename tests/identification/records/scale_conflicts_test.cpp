@@ -78,6 +78,18 @@ TEST(ScaleConflicts, TakeLeakageOfASlowRecordForNoScale) {
   EXPECT_EQ(found[0].channel, Channel::valve_command);
 }
 
+// Though it makes its own record slow.
+TEST(ScaleConflicts, NameTheTachometerOfASlowRecordByBothCommands) {
+  auto all = records();
+  for (Signal* signal : {&all[0].motor_rate, &*all[0].rate_command, &*all[0].valve_command}) {
+    signal->values *= 0.3;
+  }
+  all[0].motor_rate.values *= 0.2;
+  const auto found = conflicts_of(all);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].channel, Channel::tachometer);
+}
+
 TEST(ScaleConflicts, TakeValidSamplesAlone) {
   auto all = records();
   all[1].motor_rate.values.head(100) *= 100.0;

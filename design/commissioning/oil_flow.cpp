@@ -6,6 +6,7 @@
 
 #include <boresight/design/commissioning/oil_flow.hpp>
 #include <boresight/design/commissioning/step_responses.hpp>
+#include <boresight/identification/signals/rate_smoothing.hpp>
 
 namespace boresight::design {
 namespace {
@@ -41,14 +42,8 @@ VectorXd delayed(const VectorXd& values, double samples) {
 
 // Without the samples whose window is not whole.
 VectorXd less_average(const VectorXd& values, Index reach) {
-  const Index kept = values.size() - 2 * reach;
-  VectorXd result(kept);
-  double sum = values.head(2 * reach + 1).sum();
-  for (Index k = 0; k < kept; ++k) {
-    result[k] = values[k + reach] - sum / static_cast<double>(2 * reach + 1);
-    if (k + 1 < kept) sum += values[k + 2 * reach + 1] - values[k];
-  }
-  return result;
+  return (values - identification::moving_mean(values, reach))
+      .segment(reach, values.size() - 2 * reach);
 }
 
 }  // namespace
@@ -74,12 +69,15 @@ std::optional<OilSpring> oil_spring(const ServoRecord& record, const FlowModel& 
   const auto reach = static_cast<Index>(std::ceil(0.5 * model.window / time));
   constexpr Index fewest_windows = 4;
   if (samples < fewest_windows * 2 * reach) return std::nullopt;
-  const Signal flow = valve_flow(record, model);
+  // The load at the orifice when the flow has come.
+  ServoRecord late = record;
+  late.valve_command->values = delayed(record.valve_command->values, model.delay / time);
+  const Signal flow = valve_flow(late, model);
   for (const Signal* one : {&flow, &*record.motor_rate}) {
     if (!all_valid(*one, 0, samples)) return std::nullopt;
   }
-  const VectorXd& torque = record.motor_torque->values;
-  const VectorXd later = delayed(flow.values, model.delay / time);
+  const VectorXd torque = delayed(record.motor_torque->values, model.tachometer_lag / time);
+  const VectorXd later = delayed(flow.values, model.tachometer_lag / time);
   Eigen::MatrixXd terms(samples - 2 * reach, 3);
   terms.col(0) = less_average(integral_of(later, time), reach);
   terms.col(1) = less_average(integral_of(record.motor_rate->values, time), reach);
@@ -96,9 +94,9 @@ std::optional<OilSpring> oil_spring(const ServoRecord& record, const FlowModel& 
   const Eigen::MatrixXd covariance =
       (scaled.transpose() * scaled).ldlt().solve(Eigen::MatrixXd::Identity(3, 3)) * variance;
   const OilSpring spring{-factors[1] / scale[1], std::sqrt(covariance(1, 1)) / scale[1]};
-  const bool told = spring.stiffness > 0.0 &&
-                    spring.uncertainty < largest_relative_uncertainty * spring.stiffness;
-  return told ? std::optional(spring) : std::nullopt;
+  const bool is_identifiable = spring.stiffness > 0.0 &&
+                               spring.uncertainty < largest_relative_uncertainty * spring.stiffness;
+  return is_identifiable ? std::optional(spring) : std::nullopt;
 }
 
 }  // namespace boresight::design

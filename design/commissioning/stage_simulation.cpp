@@ -280,9 +280,8 @@ FlowModel flow_model(const Mission& mission) {
   const double period =
       two_pi * std::sqrt(plant::reflected_inertia(problem.plant) / drive.oil_stiffness);
   return {antenna.oil.supply_torque - antenna.oil.return_torque,
-          problem.delay + 2.0 * drive.valve_damping / drive.valve_corner -
-              1.0 / drive.tachometer_corner,
-          periods * period};
+          problem.delay + 2.0 * drive.valve_damping / drive.valve_corner,
+          1.0 / drive.tachometer_corner, periods * period};
 }
 
 identification::ServoRecord simulate_stage(const Mission& mission, const CommissioningStage& stage,

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -15,31 +16,34 @@ using Eigen::VectorXd;
 constexpr double sample_time = 0.02;
 constexpr double stiffness = 50.0;
 constexpr double leakage = 1.2;
-const FlowModel model{200.0, 0.0, 3.0};
+const FlowModel model{200.0, 0.04, 0.03, 3.0};
 
 // An oil spring between a flow that steps and a motor that follows it with any friction: a ring at
-// 1 Hz, and more friction with the rate.
+// 1 Hz, and more friction with the rate. The flow is two samples late, the tachometer a lag.
 identification::ServoRecord ringing(double friction, double noise) {
   constexpr int finer = 50;
   constexpr double inertia = 1.3;
   constexpr Index samples = 1500;
   VectorXd valve(samples), rate(samples), torque(samples);
-  double w = 5.0;
+  double w = 5.0, shown = 5.0;
   double t = friction * std::sqrt(w);
   std::mt19937 numbers(5);
   std::normal_distribution<double> normal(0.0, noise);
   for (Index k = 0; k < samples; ++k) {
     const double flow = 5.0 + leakage * t / stiffness + ((k / 300) % 2 == 1 ? 2.0 : 0.0);
     torque[k] = t + normal(numbers);
-    rate[k] = w + 0.02 * normal(numbers);
-    valve[k] = flow / std::sqrt(1.0 - t / model.supply_torque);
+    rate[k] = shown + 0.02 * normal(numbers);
+    // Of the load at its flow, which the record has two samples later.
+    valve[std::max<Index>(0, k - 2)] = flow / std::sqrt(1.0 - t / model.supply_torque);
     for (int step = 0; step < finer; ++step) {
       const double dt = sample_time / finer;
       const double held = 5.0 + leakage * t / stiffness + ((k / 300) % 2 == 1 ? 2.0 : 0.0);
       t += dt * (stiffness * (held - w) - leakage * t);
       w += dt * (t - friction * std::sqrt(std::max(w, 0.0))) / inertia;
+      shown += dt * (w - shown) / model.tachometer_lag;
     }
   }
+  valve.tail(2).setConstant(valve[samples - 3]);
   identification::ServoRecord record;
   record.sample_time = sample_time;
   record.valve_command = identification::Signal{valve, {}};

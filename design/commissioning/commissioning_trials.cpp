@@ -29,7 +29,8 @@ Shown on_linear_plant(const StageObservation& seen, const CommissioningStage& st
 // Steps and moves by a record; the rms in still air are those of the linear plant.
 Shown on_nonlinear_antenna(const Mission& mission, const CommissioningStage& stage,
                            const StageExperiment& experiment, const AntennaFault& fault,
-                           const StageObservation& seen, double rms_allowance) {
+                           const StageObservation& seen, const TrialOptions& trial) {
+  const double rms_allowance = trial.rms_allowance;
   Shown shown;
   auto& evaluation = shown.evaluation;
   evaluation.stable = seen.stable;
@@ -38,6 +39,7 @@ Shown on_nonlinear_antenna(const Mission& mission, const CommissioningStage& sta
   StageSimulationOptions options;
   options.changes = fault.changes;
   options.factors = fault.factors;
+  options.seed = trial.seed;
   const auto record = simulate_stage(mission, stage, experiment, options);
   evaluation.stable = record.motor_rate->values.size() > 0;
   if (!evaluation.stable) return shown;
@@ -162,10 +164,10 @@ std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPl
       const CommissioningStage& stage = plan.stages[k];
       if (stage.kind == StageKind::as_found) continue;
       const StageObservation seen = observer.observe(stage.controller);
-      const Shown shown = k < experiments.size()
-                              ? on_nonlinear_antenna(mission, stage, experiments[k], faults[i],
-                                                     seen, options.rms_allowance)
-                              : on_linear_plant(seen, stage, options.rms_allowance);
+      const Shown shown =
+          k < experiments.size()
+              ? on_nonlinear_antenna(mission, stage, experiments[k], faults[i], seen, options)
+              : on_linear_plant(seen, stage, options.rms_allowance);
       if (shown.evaluation.verdict == StageVerdict::passes) continue;
       trial.detected = k;
       trial.evaluation = shown.evaluation;

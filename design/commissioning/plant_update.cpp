@@ -31,6 +31,20 @@ double squared_difference(const MeasuredQuantity& measured, const CommissioningS
                                    : infinity;
 }
 
+// Flow and command of the valve over the rate are one measurement; the flow depends less on
+// friction.
+std::vector<MeasuredQuantity> independent(const std::vector<MeasuredQuantity>& quantities) {
+  std::vector<MeasuredQuantity> kept = quantities;
+  const auto has_flow =
+      std::ranges::count(kept, StageQuantity::flow_per_rate, &MeasuredQuantity::quantity) > 0;
+  if (has_flow) {
+    std::erase_if(kept, [](const MeasuredQuantity& one) {
+      return one.quantity == StageQuantity::valve_per_rate;
+    });
+  }
+  return kept;
+}
+
 double mismatch_of(StageObserver& observer, const CommissioningPlan& plan,
                    const std::vector<MeasuredStage>& records) {
   double sum = 0.0;
@@ -39,7 +53,7 @@ double mismatch_of(StageObserver& observer, const CommissioningPlan& plan,
     const CommissioningStage& stage = plan.stages[record.stage];
     const StageObservation seen = observer.observe(stage.controller);
     if (!seen.stable) return infinity;
-    for (const auto& one : record.measurement.quantities) {
+    for (const auto& one : independent(record.measurement.quantities)) {
       sum += squared_difference(one, stage, seen);
     }
   }
@@ -98,7 +112,9 @@ void check(const CommissioningPlan& plan, const std::vector<MeasuredStage>& reco
 
 std::size_t quantities_of(const std::vector<MeasuredStage>& records) {
   std::size_t quantities = 0;
-  for (const MeasuredStage& record : records) quantities += record.measurement.quantities.size();
+  for (const MeasuredStage& record : records) {
+    quantities += independent(record.measurement.quantities).size();
+  }
   return quantities;
 }
 

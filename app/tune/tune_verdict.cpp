@@ -131,8 +131,7 @@ std::string integral_text(const TuneSection& section) {
   return fmt::format(
       " A static encoder error of 0 needs an integral in the rate or position loop that acts on "
       "every error, which {} {} not have. Allow the error found, or take structures with "
-      "integrals, such as PI, LL, DPF or "
-      "FULL.",
+      "integrals, such as PI, LL, DPF or FULL.",
       fmt::join(without, ", "), without.size() == 1 ? "does" : "do");
 }
 

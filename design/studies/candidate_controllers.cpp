@@ -120,8 +120,7 @@ TunedCandidates tune_candidates(const std::vector<ProposedAntenna>& antennas,
     for (const auto& loop : one.structures.loops) {
       if (!loop.structure.has_conditional_integral()) continue;
       throw InvalidInput(fmt::format(
-          "{}: expected the time domain for {}, whose integral acts on large errors only, found "
-          "none",
+          "{}: expected the time domain for {}, an integral with a dead zone or freeze, found none",
           one.name, loop.name));
     }
     if (one.structures.state_space_named) {

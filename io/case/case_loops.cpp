@@ -264,8 +264,7 @@ control::LoopStructure with_width(const Case& antenna, const control::LoopStruct
   if (!stated) {
     throw InvalidInput(
         fmt::format("{}: expected encoder noise, whose step is the width of its integral, or both "
-                    "bounds of the "
-                    "width in [[tuning.bound]], found neither",
+                    "bounds of the width in [[tuning.bound]], found neither",
                     structure.name()));
   }
   return structure;

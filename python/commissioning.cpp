@@ -29,7 +29,7 @@ using app::StageCheck;
 using app::StageSheet;
 
 // A record of a stage, and the verdict on it.
-struct JudgedRecord {
+struct StageRecordResult {
   std::size_t stage = 0;
   std::string file, verdict;
 };
@@ -53,8 +53,8 @@ CommissionReport commission(const io::Case& antenna, std::optional<control::Cont
   });
 }
 
-std::vector<JudgedRecord> records_of(const CommissionReport& report) {
-  std::vector<JudgedRecord> records;
+std::vector<StageRecordResult> records_of(const CommissionReport& report) {
+  std::vector<StageRecordResult> records;
   for (const auto& one : report.records) {
     records.push_back({one.stage + 1, one.file,
                        one.evaluated.empty()
@@ -163,10 +163,10 @@ void add_stages(py::module_& module) {
       .def_readonly("step", &StageSheet::step,
                     "Step of the rate (rad/s) or position command (rad) at the sky")
       .def_readonly("checks", &StageSheet::checks, "Every StageCheck");
-  py::class_<JudgedRecord>(module, "StageRecord", "The record of a stage that is done.")
-      .def_readonly("stage", &JudgedRecord::stage, "Its number, from 1")
-      .def_readonly("file", &JudgedRecord::file)
-      .def_readonly("verdict", &JudgedRecord::verdict,
+  py::class_<StageRecordResult>(module, "StageRecord", "The record of a stage that is done.")
+      .def_readonly("stage", &StageRecordResult::stage, "Its number, from 1")
+      .def_readonly("file", &StageRecordResult::file)
+      .def_readonly("verdict", &StageRecordResult::verdict,
                     "'passes', 'outside', 'abort' or 'not evaluated'");
 }
 

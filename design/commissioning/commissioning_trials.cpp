@@ -14,24 +14,24 @@ namespace {
 constexpr std::uint64_t first_fresh_sample = 1'000'000;
 
 // A quantity and what an antenna shows of it, the worst of the stage.
-struct Shown {
+struct MeasuredOnAntenna {
   StageEvaluation evaluation;
   double measured = 0.0;
 };
 
-Shown on_linear_plant(const StageObservation& seen, const CommissioningStage& stage,
-                      double rms_allowance) {
-  Shown shown{evaluated(seen, stage, rms_allowance)};
+MeasuredOnAntenna on_linear_plant(const StageObservation& seen, const CommissioningStage& stage,
+                                  double rms_allowance) {
+  MeasuredOnAntenna shown{evaluated(seen, stage, rms_allowance)};
   if (shown.evaluation.worst) shown.measured = value_of(*shown.evaluation.worst, seen);
   return shown;
 }
 
 // Steps and moves by a record; the rms in still air are those of the linear plant.
-Shown on_nonlinear_antenna(const Mission& mission, const CommissioningStage& stage,
-                           const StageExperiment& experiment, const AntennaFault& fault,
-                           const StageObservation& seen, const TrialOptions& trial) {
+MeasuredOnAntenna on_nonlinear_antenna(const Mission& mission, const CommissioningStage& stage,
+                                       const StageExperiment& experiment, const AntennaFault& fault,
+                                       const StageObservation& seen, const TrialOptions& trial) {
   const double rms_allowance = trial.rms_allowance;
-  Shown shown;
+  MeasuredOnAntenna shown;
   auto& evaluation = shown.evaluation;
   evaluation.stable = seen.stable;
   evaluation.verdict = StageVerdict::abort;
@@ -164,7 +164,7 @@ std::vector<FaultTrial> try_faults(const Mission& mission, const CommissioningPl
       const CommissioningStage& stage = plan.stages[k];
       if (stage.kind == StageKind::as_found) continue;
       const StageObservation seen = observer.observe(stage.controller);
-      const Shown shown =
+      const MeasuredOnAntenna shown =
           k < experiments.size()
               ? on_nonlinear_antenna(mission, stage, experiments[k], faults[i], seen, options)
               : on_linear_plant(seen, stage, options.rms_allowance);

@@ -29,8 +29,8 @@ struct ExperimentEffect {
   double nominal = 1.0, lower = 1.0, upper = 1.0;
 };
 
-/// What the friction torques on the day may differ from the case's, relative: with oil temperature,
-/// wear and place.
+/// Relative uncertainty of the case's friction torques, which change with oil temperature, wear and
+/// place.
 inline constexpr double friction_allowance = 0.3;
 
 }  // namespace boresight::design

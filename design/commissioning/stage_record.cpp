@@ -236,7 +236,7 @@ Plateau plateau_of(const VectorXd& values) {
   return {best.first + best.count / 4, best.count / 2};
 }
 
-// Change of the steady valve command over that of the motor rate: of the fastest steady motion
+// Change of the steady valve command over that of the motor rate: of the longest steady motion
 // against the start of the record.
 void measure_valve(const Signal& rate, const Signal& valve, StageQuantity quantity,
                    StageMeasurement& measurement) {

@@ -43,9 +43,9 @@ struct StageMeasurement {
 /// smoothed over a twentieth of the crossover's period, less the mean of the first twentieth of the
 /// record, before the move.
 /// Steps of a rate and moves also give the change of the valve command over that of the motor rate,
-/// where both are recorded: of the fastest steady motion against the first twentieth of the record.
-/// With the motor torque and CommissioningStage::flow they give that of the valve's flow too, and
-/// every command the oil stiffness (oil_spring) where the motion tells it.
+/// where both are recorded: of the longest steady motion away from the start against the record's
+/// first twentieth. With the motor torque and CommissioningStage::flow they give that of the
+/// valve's flow too, and every command the oil stiffness where it is identifiable (oil_spring).
 /// `gear_ratio`: motor turns per antenna turn.
 /// @throws InvalidInput for a record without any signal that the stage needs, of fewer than 100
 /// samples, or without a sample time.

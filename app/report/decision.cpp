@@ -14,6 +14,8 @@
 #include <boresight/app/report/text_state_space.hpp>
 #include <boresight/app/tune/gains_at_bounds.hpp>
 #include <boresight/app/tune/tune_verdict.hpp>
+#include <boresight/identification/grey_box/stated_number_check.hpp>
+#include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
 
 namespace boresight::app {
@@ -122,11 +124,13 @@ std::string names_of(const std::vector<std::string>& names, const std::string& w
   return text;
 }
 
-std::string look_at(const io::ChannelSuspicion& one) {
+std::string look_at(const io::ChannelSuspicion& one, const std::string& said) {
   std::string text = "Look at ";
   if (!one.channels.empty()) text += names_of(one.channels, "channel") + " in ";
-  return fmt::format("{}{}: {}{} ({}).", text, names_of(one.records, "record"), one.finding,
-                     one.record_refused ? ", not used" : "", one.explanation);
+  const bool again = said.find(one.explanation) != std::string::npos;
+  return fmt::format("{}{}: {}{}{}.", text, names_of(one.records, "record"), one.finding,
+                     one.record_refused ? ", not used" : "",
+                     again ? "" : fmt::format(" ({})", one.explanation));
 }
 
 Sentences campaign_decision(const io::CampaignSection& section) {
@@ -139,6 +143,12 @@ Sentences campaign_decision(const io::CampaignSection& section) {
         "motor-to-load ratio of {:.2f} ({:.2f} to {:.2f}): {} records agree on them.",
         inertia.value, inertia.lower, inertia.upper, ratio.value, ratio.lower, ratio.upper,
         section.grey_box->records.size()));
+    const auto doubtful = identification::departing_numbers(
+        section.grey_box->stated_numbers, identification::StatedNumberCheck::doubtful_beyond);
+    if (!doubtful.empty()) {
+      sentences.push_back(fmt::format("The intervals include that one stated number is wrong: {}.",
+                                      io::departures_of(doubtful)));
+    }
     if (const auto count = section.contradictions.size(); count > 0) {
       sentences.push_back(fmt::format(
           "The records contradict {} of the case's stated numbers: correct them there.", count));
@@ -154,7 +164,15 @@ Sentences campaign_decision(const io::CampaignSection& section) {
   }
   for (const auto& one : io::suspicions(section)) {
     if (sentences.size() >= maximum) break;
-    sentences.push_back(look_at(one));
+    sentences.push_back(look_at(one, section.contradiction));
+  }
+  if (const auto* const one = io::least_checked_number(section);
+      one != nullptr && sentences.size() < maximum) {
+    sentences.push_back(
+        fmt::format("An error in the stated {} would show from {:.1f} % on, where it makes {:.1f} "
+                    "% of inertia.",
+                    one->name, 100.0 * one->visible_error,
+                    100.0 * std::abs(one->inertia_effect) * one->visible_error));
   }
   return sentences;
 }

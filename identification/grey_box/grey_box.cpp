@@ -189,13 +189,15 @@ void add_notes(GreyBoxResult& result) {
   if (!unknown.empty()) {
     notes.push_back("Not identified and left near their guesses: " + unknown + ".");
   }
-  for (const auto& p : result.parameters) {
-    if (!p.parameter.from_drawings || std::abs(p.departure) < 3.0) continue;
+  for (const auto& number : result.stated_numbers) {
+    if (std::abs(number.departure) < StatedNumberCheck::doubtful_beyond) continue;
     notes.push_back(fmt::format(
-        "The records contradict the drawings about the {}: {:.4g} {} fits, {:.4g} is stated, "
-        "{:.1f} "
-        "standard uncertainties away.",
-        p.parameter.name, p.value, p.parameter.unit, p.parameter.prior, std::abs(p.departure)));
+        "Records and all other stated numbers give {:.4g} ({:.4g} to {:.4g}) of the stated {}, "
+        "{:.1f} standard uncertainties away; without it the inertia is {:.4g} kg m2 ({:.4g} to "
+        "{:.4g}).",
+        number.by_others.value, number.by_others.lower, number.by_others.upper, number.name,
+        std::abs(number.departure), number.inertia.value, number.inertia.lower,
+        number.inertia.upper));
   }
   if (!result.without_valve.empty()) {
     std::string names;
@@ -298,7 +300,8 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   result.posterior.offset_discrepancy =
       offset_discrepancy(objective, result.posterior, records, parameters,
                          options.discrepancy.torque_balance, unknown);
-  result.conflict = grey_box_conflict(parameters, best.x);
+  result.stated_numbers = check_stated_numbers(parameters, result.posterior);
+  result.conflict = grey_box_conflict(parameters, best.x, result.stated_numbers);
   widen(result.posterior, parameters, result.conflict);
   result.motion = motion_of(records);
   add_unidentifiable_directions(result.posterior, parameters, result.motion);
@@ -322,8 +325,14 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
   }
   result.estimate = drive_estimate(parameters, best.x);
   result.estimate.contradicted = result.conflict.widening > 1.0;
+  const bool in_doubt =
+      result.conflict.widening == 1.0 &&
+      !departing_numbers(result.stated_numbers, StatedNumberCheck::doubtful_beyond).empty();
   result.random_samples =
-      posterior_samples(parameters, result.posterior, options.random_samples, options.seed);
+      in_doubt
+          ? samples_in_doubt(parameters, result.posterior, result.stated_numbers,
+                             options.random_samples, options.seed)
+          : posterior_samples(parameters, result.posterior, options.random_samples, options.seed);
   add_quantities(result, parameters, options);
   std::vector<double> times, rates, pressures;
   for (const auto& record : records) times.push_back(record.sample_time);

@@ -12,6 +12,7 @@
 #include <boresight/identification/grey_box/grey_box_adequacy.hpp>
 #include <boresight/identification/grey_box/grey_box_posterior.hpp>
 #include <boresight/identification/grey_box/grey_box_whiteness.hpp>
+#include <boresight/identification/grey_box/stated_number_check.hpp>
 #include <boresight/numerics/statistics/least_squares.hpp>
 
 namespace boresight::identification {
@@ -75,6 +76,9 @@ struct GreyBoxResult {
   GreyBoxConflict conflict;
   GreyBoxMotion motion;
   std::vector<GreyBoxParameterResult> parameters;
+  /// Each stated number against all else. If one is in doubt (StatedNumberCheck::doubtful_beyond),
+  /// random samples and intervals include what follows if it is wrong.
+  std::vector<StatedNumberCheck> stated_numbers;
   std::vector<GreyBoxQuantity> quantities;
   /// Of the quantities, in their order.
   Eigen::MatrixXd correlation;

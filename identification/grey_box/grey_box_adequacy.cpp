@@ -22,9 +22,10 @@ bool enters_inertia_or_stiffness(Index parameter) {
 
 }  // namespace
 
-GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const VectorXd& point) {
+GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const VectorXd& point,
+                                  const std::vector<StatedNumberCheck>& checks) {
   GreyBoxConflict conflict;
-  conflict.supply_departure = point(P::supply_torque);
+  conflict.contradicted = departing_numbers(checks, StatedNumberCheck::contradicted_beyond);
   double entering = 0.0;
   int of_entering = 0;
   for (Index i = 0; i < parameters.size(); ++i) {
@@ -47,8 +48,8 @@ GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const Vec
   if (of_entering > 0 && entering > numerics::chi_squared_quantile(confidence, of_entering)) {
     conflict.widening = entering / of_entering;
   }
-  if (std::abs(conflict.supply_departure) >= GreyBoxConflict::supply_beyond) {
-    conflict.widening = std::max(conflict.widening, std::pow(conflict.supply_departure, 2));
+  for (const auto& one : conflict.contradicted) {
+    conflict.widening = std::max(conflict.widening, one.departure * one.departure);
   }
   return conflict;
 }

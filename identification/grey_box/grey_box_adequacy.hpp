@@ -6,14 +6,12 @@
 #include <boresight/identification/grey_box/grey_box_parameters.hpp>
 #include <boresight/identification/grey_box/grey_box_posterior.hpp>
 #include <boresight/identification/grey_box/grey_box_record.hpp>
+#include <boresight/identification/grey_box/stated_number_check.hpp>
 
 namespace boresight::identification {
 
 /// Whether what fits the records is what drawings, data sheets and instruments say.
 struct GreyBoxConflict {
-  /// Departures of the supply from here on are no scatter, in uncertainties: once in two thousand
-  /// campaigns.
-  static constexpr double supply_beyond = 3.5;
   /// Squares of the distances from the stated numbers, in units of their uncertainties: of all that
   /// drawings, data sheets and instruments state; how many; and the largest that so many have at
   /// random.
@@ -22,9 +20,9 @@ struct GreyBoxConflict {
   double limit = 0.0;
   std::string largest;  // the stated number that the records contradict most
   double departure = 0.0;
-  /// Distance of the supply pressure that the pressures show from the stated one, in its
-  /// uncertainties: a gain that all transducers share, or another supply.
-  double supply_departure = 0.0;
+  /// Numbers of which one is contradicted by the records and all others: departing_numbers beyond
+  /// StatedNumberCheck::contradicted_beyond.
+  std::vector<StatedNumberCheck> contradicted;
   /// Factor of the posterior's variances: above 1 where records contradict the stated numbers that
   /// inertia and stiffness rest on significantly.
   double widening = 1.0;
@@ -32,11 +30,11 @@ struct GreyBoxConflict {
 };
 
 /// Evaluates the conflict at the optimum. The scales of valve and supply, which enter neither
-/// inertia nor stiffness, count in the sum but not in the widening, unless the supply departs by
-/// `supply_beyond` or more: it is the only witness of a gain that all pressure transducers share.
-/// That gain is then among the stated numbers that widen, at the supply's distance.
-GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters,
-                                  const Eigen::VectorXd& point);
+/// inertia nor stiffness, count in the sum but not in the widening. One contradicted number
+/// widens by the square of its departure. The supply is among those that may be: it is the only
+/// witness of a gain that all pressure transducers share.
+GreyBoxConflict grey_box_conflict(const GreyBoxParameters& parameters, const Eigen::VectorXd& point,
+                                  const std::vector<StatedNumberCheck>& checks);
 
 /// Raises the posterior's variances by the conflict's widening; what nobody has stated at most to
 /// the variance it had as a guess.

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <boresight/io/campaign/campaign_comparison.hpp>
 
@@ -173,15 +174,23 @@ std::string verdict(const CampaignSection& section,
   return apart > away * quantity.prior.standard_uncertainty ? "contradicts " + origin : origin;
 }
 
+std::string departures_of(const std::vector<identification::StatedNumberCheck>& numbers) {
+  std::vector<std::string> all;
+  for (const auto& one : numbers) {
+    all.push_back(fmt::format("{}: {:.3g} times the stated value, {:.1f} standard uncertainties",
+                              one.name, one.by_others.value, std::abs(one.departure)));
+  }
+  return fmt::format("{}", fmt::join(all, "; "));
+}
+
 std::string contradiction_with_case(const identification::GreyBoxResult& found) {
   const auto& conflict = found.conflict;
   std::string text;
-  if (std::abs(conflict.supply_departure) >= identification::GreyBoxConflict::supply_beyond) {
+  if (!conflict.contradicted.empty()) {
     text = fmt::format(
-        "The supply pressure that the records show is {:.1f} standard uncertainties {} the stated "
-        "one: all pressure transducers have the same wrong scale, or the case's supply pressure is "
-        "wrong.",
-        std::abs(conflict.supply_departure), conflict.supply_departure > 0.0 ? "above" : "below");
+        "Records and all other stated numbers contradict {} ({}).",
+        conflict.contradicted.size() == 1 ? "one stated number" : "one of these stated numbers",
+        departures_of(conflict.contradicted));
   }
   if (!conflict.beyond_scatter()) return text;
   if (!text.empty()) text += ' ';

@@ -45,6 +45,10 @@ std::vector<FrictionRow> friction_rows(const CampaignSection& section,
 std::string verdict(const CampaignSection& section,
                     const identification::GreyBoxQuantity& quantity);
 
+/// "tachometer scale: 1.04 times the stated value, 3.8 standard uncertainties; ...", of each number
+/// by records and all other stated numbers.
+std::string departures_of(const std::vector<identification::StatedNumberCheck>& numbers);
+
 /// A sentence if records and stated numbers contradict each other significantly; else empty.
 std::string contradiction_with_case(const identification::GreyBoxResult& found);
 

@@ -107,6 +107,25 @@ void describe_fit(Visitor& v, const CampaignSection& section,
     v.number("remaining", p.remaining, unit::ratio, "Standard uncertainty left, in its spreads.");
     v.flag("identified", p.identified, "Below 0.7 of a spread is left.");
   });
+  v.list("stated_numbers", fit.stated_numbers,
+         "Each stated number against the records and all other stated numbers.",
+         [&](const identification::StatedNumberCheck& one) {
+           v.text("name", one.name, "The number.");
+           v.number("stated_uncertainty", one.stated_uncertainty, unit::ratio,
+                    "Standard, relative.");
+           describe_interval(v, "by_others", one.by_others, "1",
+                             "Of the stated number, by records and all other stated numbers.");
+           v.number("departure", one.departure, unit::ratio,
+                    "Its logarithm, in standard uncertainties of both together.");
+           v.number("visible_error", one.visible_error, unit::ratio,
+                    "Relative error of the number with a departure of 3.5.");
+           v.number("inertia_effect", one.inertia_effect, unit::ratio,
+                    "Relative change of the inertia per relative change of the number.");
+           describe_interval(v, "inertia", one.inertia, "kg m2", "Without the stated number.");
+           v.flag("moves_inertia", one.moves_inertia,
+                  "Without it the inertia is another by its standard uncertainty or more; also of "
+                  "the supply pressure, which checks the pressure transducers.");
+         });
   v.list("residuals", fit.residuals, "Prediction errors of each record and half.",
          [&](const auto& r) {
            v.text("record", r.record, "The record.");
@@ -231,6 +250,8 @@ void describe_suspicion(Visitor& v, const ChannelSuspicion& one) {
   v.text("finding", one.finding, "What is wrong.");
   v.texts("records", one.records, "In which records.");
   v.texts("channels", one.channels, "As the files call them; empty: the records as a whole.");
+  v.texts("stated_numbers", one.stated_numbers,
+          "Of the case: one is wrong, or a channel that measures with it; the likeliest first.");
   v.flag("record_refused", one.record_refused, "The records are not used.");
   v.number("largest_fraction", one.fraction, unit::ratio, "Of a record's samples.");
   v.text("explanation", one.explanation, "Of the first.");

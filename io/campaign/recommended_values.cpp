@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/io/campaign/campaign_comparison.hpp>
 #include <boresight/io/campaign/channel_findings.hpp>
 #include <boresight/io/campaign/recommended_values.hpp>
 #include <boresight/io/case/case_file.hpp>
@@ -18,6 +19,7 @@ namespace {
 using identification::DefectHandling;
 using identification::DefectKind;
 using identification::RecordDefect;
+using identification::StatedNumberCheck;
 
 constexpr double many_samples = 0.005;  // of a record
 constexpr double mostly = 0.5;
@@ -137,8 +139,8 @@ const std::vector<ChannelScale>& channel_scales() {
       {"tachometer scale", {"tachometer"}},
       {"pressure gain", {"inlet pressure", "outlet pressure"}},
       {"torque per pressure", {"inlet pressure", "outlet pressure"}},
-      {"unlike gains of inlets and outlets", {"inlet pressure", "outlet pressure"}},
       {"flow per rate", {"tachometer"}},
+      {"displacement", {"inlet pressure", "outlet pressure", "tachometer"}},
       {"supply pressure as torque", {"inlet pressure", "outlet pressure"}},
       {"valve scale", {"valve command"}}};
   return scales;
@@ -159,23 +161,35 @@ std::vector<std::string> columns_of(const CampaignNotes& notes,
   return columns;
 }
 
-void add_contradicted(const CampaignSection& section, std::vector<ChannelSuspicion>& found) {
-  for (const auto& parameter : section.grey_box->parameters) {
-    const auto& scales = channel_scales();
-    const auto scale = std::ranges::find(scales, std::string_view(parameter.parameter.name),
-                                         &ChannelScale::parameter);
-    if (scale == scales.end() || std::abs(parameter.departure) < beyond_stated) continue;
-    ChannelSuspicion one;
-    one.finding = "contradicts the case";
-    one.records = section.grey_box->records;
-    one.channels = columns_of(section.notes, scale->signals);
-    one.fraction = 1.0;
-    one.explanation =
-        fmt::format("{}: {:.4g} fits, {:.4g} is stated, {:.1f} standard uncertainties",
-                    parameter.parameter.name, parameter.value, parameter.parameter.prior,
-                    std::abs(parameter.departure));
-    found.push_back(std::move(one));
+// What all else contradicts in the numbers that move the inertia, or else what it contradicts most.
+std::vector<StatedNumberCheck> contradicted_numbers(const identification::GreyBoxResult& fit) {
+  auto numbers = identification::departing_numbers(fit.stated_numbers, beyond_stated);
+  if (numbers.empty() && !fit.stated_numbers.empty()) {
+    numbers.push_back(*std::ranges::max_element(
+        fit.stated_numbers, {}, [](const auto& one) { return std::abs(one.departure); }));
   }
+  return numbers;
+}
+
+void add_contradicted(const CampaignSection& section, std::vector<ChannelSuspicion>& found) {
+  const auto numbers = contradicted_numbers(*section.grey_box);
+  if (numbers.empty()) return;
+  ChannelSuspicion one;
+  one.finding = "contradicts the case";
+  one.records = section.grey_box->records;
+  one.fraction = 1.0;
+  one.explanation = departures_of(numbers);
+  for (const auto& number : numbers) {
+    one.stated_numbers.push_back(number.name);
+    const auto& scales = channel_scales();
+    const auto scale =
+        std::ranges::find(scales, std::string_view(number.name), &ChannelScale::parameter);
+    if (scale == scales.end()) continue;
+    for (const auto& column : columns_of(section.notes, scale->signals)) {
+      add_once(one.channels, column);
+    }
+  }
+  found.push_back(std::move(one));
 }
 
 }  // namespace
@@ -206,6 +220,15 @@ std::optional<RecommendedValues> recommended(const CampaignSection& section) {
   if (rejection(section) != Rejection::none) return std::nullopt;
   return RecommendedValues{section.grey_box->quantity("inertia").posterior,
                            section.grey_box->quantity("motor to load ratio").posterior};
+}
+
+const StatedNumberCheck* least_checked_number(const CampaignSection& section) {
+  if (rejection(section) != Rejection::none) return nullptr;
+  const auto& checks = section.grey_box->stated_numbers;
+  const auto least = std::ranges::max_element(checks, {}, [](const StatedNumberCheck& one) {
+    return std::abs(one.inertia_effect) * one.visible_error;
+  });
+  return least == checks.end() ? nullptr : &*least;
 }
 
 std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section) {

@@ -29,6 +29,10 @@ struct RecommendedValues {
 /// fit that contradicts its own inputs is a basis for a design.
 std::optional<RecommendedValues> recommended(const CampaignSection& section);
 
+/// The stated number whose errors may change the inertia most before the records show them
+/// (StatedNumberCheck::visible_error times inertia_effect); nothing where no value is recommended.
+const identification::StatedNumberCheck* least_checked_number(const CampaignSection& section);
+
 /// What a redesign takes from the campaign instead of what the case states; nothing where no value
 /// is recommended, or where what is recommended leaves the antenna no inertia.
 std::vector<SupersededInput> superseded_inputs(const Case& stated, const CampaignSection& section);
@@ -40,6 +44,9 @@ struct ChannelSuspicion {
   std::string finding;
   std::vector<std::string> records;
   std::vector<std::string> channels;  // as the files call them; empty: records as a whole
+  /// Numbers of the case of which one is wrong, or the channels that measure with it are; the
+  /// likeliest first.
+  std::vector<std::string> stated_numbers;
   bool record_refused = false;
   double fraction = 0.0;    // of a record's samples, the largest
   std::string explanation;  // of the first
@@ -50,8 +57,8 @@ struct ChannelSuspicion {
 /// exchanged, reversed or on another scale; samples that are missing, stuck or clipped, where they
 /// are many (from a two-hundredth of a record; half for clipped ones, which fast tests mean to
 /// have); and records, but slosh tests, whose rate the fit predicts five times worse than the
-/// median record's. Where the fit contradicts the case, also the channels whose stated scale it
-/// contradicts.
+/// median record's. Where the fit contradicts the case, also the stated numbers that it contradicts
+/// and the channels whose scale they are.
 std::vector<ChannelSuspicion> suspicions(const CampaignSection& section);
 
 }  // namespace boresight::io

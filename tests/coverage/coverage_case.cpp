@@ -93,9 +93,8 @@ void evaluate_grey_box(const RandomDrive& drive, const SimulatedCampaign& simula
   friction("friction at a tenth of the limit", simulated.speeds.at(2));
   friction("friction at the fastest speed", simulated.speeds.back());
   if (!result) return;
-  for (const auto& p : result->parameters) {
-    if (!p.parameter.from_drawings) continue;
-    into.largest_departure = std::max(into.largest_departure, std::abs(p.departure));
+  for (const auto& one : result->stated_numbers) {
+    into.largest_departure = std::max(into.largest_departure, std::abs(one.departure));
   }
 }
 

@@ -23,7 +23,7 @@ struct CoverageCase {
   std::uint64_t number = 0;  // of the seed's
   std::vector<Evaluated> rows;
   std::vector<std::string> failures;  // methods that gave nothing, and why
-  double largest_departure = 0.0;     // of the grey box's parameters of drawings, in their spreads
+  double largest_departure = 0.0;     // of StatedNumberCheck, of all
 };
 
 /// The setting of identify that coverage is measured with: everything as the program's but this.

@@ -112,7 +112,7 @@ RecorderFault column_fault(std::string kind, std::string name, const Columns& co
       }
     }
   };
-  return {std::move(kind), std::move(name), names_of(columns), apply, ""};
+  return {std::move(kind), std::move(name), names_of(columns), apply};
 }
 
 Spoil gain(double factor) {

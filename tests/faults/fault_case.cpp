@@ -117,6 +117,7 @@ bool names_any(const io::ChannelSuspicion& finding, const std::vector<std::strin
   };
   // A record by itself, not one of all.
   return std::ranges::any_of(finding.channels, begins) ||
+         std::ranges::any_of(finding.stated_numbers, begins) ||
          (finding.records.size() == 1 && begins(finding.records.front()));
 }
 
@@ -137,7 +138,13 @@ bool covers(const numerics::Interval& interval, double truth) {
   return interval.lower <= truth && truth <= interval.upper;
 }
 
-Outcome outcome_of(const FaultCase& one, double truth) {
+// Whether the records cannot show the fault's error, and the fit says what follows without the
+// stated number.
+bool is_undetectable(const FaultCase& one, double stated_error) {
+  return one.check && std::abs(stated_error) < one.check->visible_error && one.without_holds;
+}
+
+Outcome outcome_of(const FaultCase& one, double stated_error, double truth) {
   if (!one.rejection.empty()) {
     if (one.named) return Outcome::flagged;
     return one.findings.empty() ? Outcome::refused : Outcome::other_flagged;
@@ -145,7 +152,8 @@ Outcome outcome_of(const FaultCase& one, double truth) {
   const bool covered = covers(*one.inertia, truth);
   if (std::abs(one.error) <= allowed_error) return covered ? Outcome::right : Outcome::uncovered;
   if (one.named) return Outcome::warned;
-  return covered ? Outcome::held : Outcome::silently_wrong;
+  if (covered) return Outcome::held;
+  return is_undetectable(one, stated_error) ? Outcome::undetectable : Outcome::silently_wrong;
 }
 
 // The same for a fault wherever it stands in the list.
@@ -173,6 +181,8 @@ std::string_view to_string(Outcome outcome) {
       return "warned";
     case Outcome::held:
       return "wide";
+    case Outcome::undetectable:
+      return "undetectable";
     case Outcome::silently_wrong:
       break;
   }
@@ -220,9 +230,16 @@ FaultCase fault_case(const RecorderFault& fault, const Recorded& recorded, std::
     if (section.grey_box) {
       result.inertia = section.grey_box->quantity("inertia").posterior;
       result.error = result.inertia->value / recorded.inertia - 1.0;
-      result.drawings_hold = covers(section.grey_box->quantity("inertia").prior, recorded.inertia);
+      const auto& checks = section.grey_box->stated_numbers;
+      const auto number =
+          std::ranges::find(checks, fault.stated_number, &identification::StatedNumberCheck::name);
+      if (number != checks.end()) {
+        result.check = *number;
+        result.without_holds = covers(number->inertia, recorded.inertia);
+      }
+      const auto departing = identification::departing_numbers(checks, 0.0);
+      result.departure = departing.empty() ? 0.0 : departing.front().departure;
       const auto& conflict = section.grey_box->conflict;
-      result.supply_departure = conflict.supply_departure;
       result.conflict = conflict.limit > 0.0 ? conflict.sum / conflict.limit : 0.0;
     }
     auto findings = io::suspicions(section);
@@ -240,7 +257,7 @@ FaultCase fault_case(const RecorderFault& fault, const Recorded& recorded, std::
   } catch (const NumericalFailure& failure) {
     result.rejection = failure.what();
   }
-  result.outcome = outcome_of(result, recorded.inertia);
+  result.outcome = outcome_of(result, fault.stated_error, recorded.inertia);
   return result;
 }
 

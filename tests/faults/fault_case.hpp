@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "recorder_fault.hpp"
+#include <boresight/identification/grey_box/stated_number_check.hpp>
 #include <boresight/numerics/statistics/interval.hpp>
 
 namespace boresight::faults {
@@ -20,11 +21,13 @@ enum class Outcome {
   other_flagged,  // nothing recommended, only others named
   warned,         // recommended and further off, a faulty channel or record named
   held,           // recommended and further off, nothing faulty named, the truth in its interval
-  silently_wrong  // the same, the truth outside
+  undetectable,   // the same, the truth outside; an error that these records do not show, and
+                  // identify says so: the interval without the stated number holds the truth
+  silently_wrong  // the same, without that
 };
-inline constexpr std::size_t outcomes = 8;
-/// "right", "not covered", "flagged", "refused", "other flagged", "warned", "wide", "silently
-/// wrong".
+inline constexpr std::size_t outcomes = 9;
+/// "right", "not covered", "flagged", "refused", "other flagged", "warned", "wide", "undetectable",
+/// "silently wrong".
 std::string_view to_string(Outcome outcome);
 
 /// A campaign before any fault.
@@ -45,10 +48,12 @@ struct FaultCase {
   bool named = false;                         // a faulty channel or record is named
   std::optional<numerics::Interval> inertia;  // the fit's, recommended or not
   double error = 0.0;                         // of the fit's inertia, relative
-  bool drawings_hold = false;     // the inertia's interval by drawings alone holds the truth
-  double conflict = 0.0;          // of the fit with stated numbers, sum of squares over its limit
-  double supply_departure = 0.0;  // of GreyBoxConflict
-  std::string rejection;          // why nothing is recommended; empty if something is
+  /// Of the stated number that the fault puts in error (RecorderFault::stated_number).
+  std::optional<identification::StatedNumberCheck> check;
+  bool without_holds = false;  // the inertia's interval without that number holds the truth
+  double conflict = 0.0;       // of the fit with stated numbers, sum of squares over its limit
+  double departure = 0.0;      // the largest of a stated number that moves the inertia
+  std::string rejection;       // why nothing is recommended; empty if something is
   std::vector<std::string> findings;  // the first three about the data
 };
 

@@ -64,17 +64,17 @@ std::string fault_markdown(const std::vector<FaultCase>& cases) {
 
 std::string fault_details(const std::vector<FaultCase>& cases) {
   std::string text =
-      "kind,fault,campaign,outcome,named,error,relative_half_width,drawings_hold,conflict,supply_"
+      "kind,fault,campaign,outcome,named,error,relative_half_width,visible_error,conflict,"
       "departure,rejection,findings\n";
   for (const FaultCase& one : cases) {
     const double half =
         one.inertia ? 0.5 * (one.inertia->upper - one.inertia->lower) / std::abs(one.inertia->value)
                     : 0.0;
     fmt::format_to(
-        std::back_inserter(text), "{},{},{},{},{},{:.4g},{:.4g},{},{:.3g},{:.3g},{},{}\n", one.kind,
-        quoted(one.fault), one.campaign, to_string(one.outcome), one.named ? 1 : 0, one.error, half,
-        one.drawings_hold ? 1 : 0, one.conflict, one.supply_departure, quoted(one.rejection),
-        quoted(fmt::format("{}", fmt::join(one.findings, " | "))));
+        std::back_inserter(text), "{},{},{},{},{},{:.4g},{:.4g},{:.3g},{:.3g},{:.3g},{},{}\n",
+        one.kind, quoted(one.fault), one.campaign, to_string(one.outcome), one.named ? 1 : 0,
+        one.error, half, one.check ? one.check->visible_error : 0.0, one.conflict, one.departure,
+        quoted(one.rejection), quoted(fmt::format("{}", fmt::join(one.findings, " | "))));
   }
   return text;
 }

@@ -190,28 +190,29 @@ void add_headers(std::vector<RecorderFault>& faults) {
 }
 
 void add_case(std::vector<RecorderFault>& faults) {
-  const std::vector<std::string> torque{"inlet_pressure", "outlet_pressure", "tachometer"};
+  const std::vector<std::string> torque{"displacement", "torque per pressure"};
   faults.push_back(of_case("displacement 5 % high", torque, [](RecordedCampaign& one) {
     one.knowledge.displacement.value *= 1.05;
   }));
   faults.push_back(of_case("torque efficiency 3 % low", torque, [](RecordedCampaign& one) {
     one.knowledge.torque_efficiency.value *= 0.97;
   }));
-  faults.push_back(of_case("motor inertia 10 % high", torque, [](RecordedCampaign& one) {
+  faults.push_back(of_case("motor inertia 10 % high", {"motor inertia"}, [](RecordedCampaign& one) {
     one.knowledge.motor_inertia.value *= 1.1;
   }));
-  faults.push_back(of_case("antenna inertia 30 % high", {}, [](RecordedCampaign& one) {
-    one.knowledge.antenna_inertia.value *= 1.3;
-  }));
+  faults.push_back(
+      of_case("antenna inertia 30 % high", {"antenna inertia"},
+              [](RecordedCampaign& one) { one.knowledge.antenna_inertia.value *= 1.3; }));
   faults.push_back(of_case("gear ratio 5 % high", {"tachometer", "encoder"},
                            [](RecordedCampaign& one) { one.knowledge.gear_ratio *= 1.05; }));
-  faults.push_back(of_case("oil volumes 10 % high", {}, [](RecordedCampaign& one) {
-    one.knowledge.volume_1.value *= 1.1;
-    one.knowledge.volume_2.value *= 1.1;
-  }));
-  faults.push_back(of_case("supply pressure 10 % high", {},
+  faults.push_back(
+      of_case("oil volumes 10 % high", {"volume", "bulk modulus"}, [](RecordedCampaign& one) {
+        one.knowledge.volume_1.value *= 1.1;
+        one.knowledge.volume_2.value *= 1.1;
+      }));
+  faults.push_back(of_case("supply pressure 10 % high", {"supply pressure"},
                            [](RecordedCampaign& one) { one.knowledge.supply_pressure *= 1.1; }));
-  faults.push_back(of_case("line lengths 10 % high", {}, [](RecordedCampaign& one) {
+  faults.push_back(of_case("line lengths 10 % high", {"bulk modulus"}, [](RecordedCampaign& one) {
     for (auto& length : one.knowledge.line_lengths) length.value *= 1.1;
   }));
   faults.push_back(of_case("no encoder recorded", {}, [](RecordedCampaign& one) {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "column_faults.hpp"
-#include "indistinguishable_faults.hpp"
 #include "record_faults.hpp"
+#include "stated_number_faults.hpp"
 #include <boresight/numerics/error.hpp>
 
 namespace boresight::faults {
@@ -171,11 +171,11 @@ void add_shapes(std::vector<RecorderFault>& faults) {
 
 std::vector<RecorderFault> recorder_faults() {
   std::vector<RecorderFault> faults;
-  faults.push_back({"none", "none", {}, [](RecordedCampaign&, reference::RandomNumbers&) {}, ""});
+  faults.push_back({"none", "none", {}, [](RecordedCampaign&, reference::RandomNumbers&) {}});
   add_scales(faults);
   add_shapes(faults);
   add_record_faults(faults);
-  add_proofs(faults);
+  add_stated_numbers(faults);
   return faults;
 }
 

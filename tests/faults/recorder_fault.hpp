@@ -22,13 +22,17 @@ struct RecordedCampaign {
 struct RecorderFault {
   std::string kind;  // "gain", "missing samples"; rows of the table stand together by it
   std::string name;  // unique: "tachometer x 1.05"
-  /// Beginnings of the names of the columns or records that a report has to name; empty: nothing is
-  /// wrong that anybody could name.
+  /// Beginnings of the names of the columns, records or stated numbers that a report has to name;
+  /// empty: nothing is wrong that anybody could name.
   std::vector<std::string> names;
   /// Changes the campaign; the numbers are the campaign's and fault's own.
   std::function<void(RecordedCampaign&, reference::RandomNumbers&)> apply;
-  /// Why no analysis of these records can tell, where none can.
-  std::string indistinguishable;
+  /// Why only other stated numbers contradict it, where no channel does; else empty.
+  std::string why_hidden = {};
+  /// The stated number that it puts in error (StatedNumberCheck::name), and by how much: stated
+  /// over true, less 1.
+  std::string stated_number = {};
+  double stated_error = 0.0;
 };
 
 /// All of them, none applied first for comparison.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -28,17 +29,17 @@ TEST(GreyBoxConflict, CountsWhatIsStatedAndWidensForWhatInertiaRestsOn) {
   const GreyBoxParameters parameters = synthetic::truth_parameters();
   VectorXd point = VectorXd::Zero(parameters.size());
   point(P::coulomb_torque) = 9.0;  // a guess of ours: nobody has stated it
-  auto conflict = grey_box_conflict(parameters, point);
+  auto conflict = grey_box_conflict(parameters, point, {});
   EXPECT_EQ(conflict.sum, 0.0);
   EXPECT_FALSE(conflict.beyond_scatter());
   point(P::valve_gain) = -20.0;
-  conflict = grey_box_conflict(parameters, point);
+  conflict = grey_box_conflict(parameters, point, {});
   EXPECT_TRUE(conflict.beyond_scatter());
   EXPECT_EQ(conflict.largest, "valve scale");
   EXPECT_EQ(conflict.departure, -20.0);
   EXPECT_EQ(conflict.widening, 1.0);
   point(P::motor_inertia) = 10.0;
-  conflict = grey_box_conflict(parameters, point);
+  conflict = grey_box_conflict(parameters, point, {});
   EXPECT_EQ(conflict.sum, 500.0);
   // Two of those counted, valve and supply, do not widen.
   EXPECT_DOUBLE_EQ(conflict.widening, 100.0 / (conflict.count - 2));
@@ -51,15 +52,31 @@ TEST(GreyBoxConflict, CountsWhatIsStatedAndWidensForWhatInertiaRestsOn) {
   EXPECT_NEAR(posterior.covariance(P::coulomb_torque, P::coulomb_torque), 1.0, 1e-9);
 }
 
-TEST(GreyBoxConflict, TakesASupplyThatIsFarOffForAGainOfAllPressures) {
+TEST(GreyBoxConflict, WidensByOneNumberThatAllOthersContradict) {
   const GreyBoxParameters parameters = synthetic::truth_parameters();
-  VectorXd point = VectorXd::Zero(parameters.size());
-  point(P::supply_torque) = 3.0;
-  EXPECT_EQ(grey_box_conflict(parameters, point).widening, 1.0);
-  point(P::supply_torque) = -4.0;
-  const auto conflict = grey_box_conflict(parameters, point);
-  EXPECT_EQ(conflict.supply_departure, -4.0);
+  const VectorXd point = VectorXd::Zero(parameters.size());
+  StatedNumberCheck supply;
+  supply.name = "supply pressure as torque";
+  supply.moves_inertia = true;
+  supply.departure = 3.0;
+  EXPECT_EQ(grey_box_conflict(parameters, point, {supply}).widening, 1.0);
+  supply.departure = -4.0;
+  StatedNumberCheck valve;
+  valve.departure = 6.0;  // the inertia does not rest on it
+  const auto conflict = grey_box_conflict(parameters, point, {valve, supply});
+  ASSERT_EQ(conflict.contradicted.size(), 1U);
+  EXPECT_EQ(conflict.contradicted[0].name, supply.name);
   EXPECT_DOUBLE_EQ(conflict.widening, 16.0);
+}
+
+TEST(CheckStatedNumbers, AlwaysCountTheSupplyWhichWitnessesAllPressures) {
+  const Truth truth;
+  const auto result =
+      fit_grey_box(synthetic::campaign(truth.parameters, truth.point, 0.005, 11), bulk, quick());
+  const auto supply = std::ranges::find(result.stated_numbers, "supply pressure as torque",
+                                        &StatedNumberCheck::name);
+  ASSERT_NE(supply, result.stated_numbers.end());
+  EXPECT_TRUE(supply->moves_inertia);
 }
 
 TEST(FitGreyBox, SaysWhenRecordsContradictADrawingAndNoLongerHidesIt) {

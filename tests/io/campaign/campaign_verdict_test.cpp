@@ -59,7 +59,7 @@ TEST(Verdict, SaysDrawingsOnlyWhereTheyAgree) {
 TEST(Verdict, OfAContradictionComesFirstAndForAll) {
   CampaignSection section = section_of({learnt("inertia", 1.0, 0.9)});
   auto& conflict = section.grey_box->conflict;
-  conflict = {400.0, 14, 36.1, "motor inertia", 15.0, 0.0, 28.0};
+  conflict = {400.0, 14, 36.1, "motor inertia", 15.0, {}, 28.0};
   EXPECT_EQ(verdict(section, section.grey_box->quantities[0]), "contradicts the case");
   section.contradiction = contradiction_with_case(*section.grey_box);
   EXPECT_THAT(first_of(not_identifiable(section)),
@@ -73,12 +73,20 @@ TEST(Verdict, OfAContradictionComesFirstAndForAll) {
   EXPECT_EQ(contradiction_with_case(*section.grey_box), "");
 }
 
-TEST(Verdict, NamesTheSupplyThatContradictsAllPressures) {
+TEST(Verdict, NamesTheStatedNumbersThatAllElseContradicts) {
   CampaignSection section = section_of({learnt("inertia", 1.0, 0.9)});
-  section.grey_box->conflict.supply_departure = -4.0;
-  EXPECT_THAT(contradiction_with_case(*section.grey_box),
-              HasSubstr("4.0 standard uncertainties below the stated one"));
-  section.grey_box->conflict.supply_departure = 3.0;
+  identification::StatedNumberCheck supply;
+  supply.name = "supply pressure as torque";
+  supply.departure = -4.0;
+  supply.by_others = numerics::normal_interval(0.93, 0.01);
+  section.grey_box->conflict.contradicted = {supply};
+  EXPECT_THAT(
+      contradiction_with_case(*section.grey_box),
+      HasSubstr("one stated number (supply pressure as torque: 0.93 times the stated value, "
+                "4.0 standard uncertainties)"));
+  section.grey_box->conflict.contradicted.push_back(supply);
+  EXPECT_THAT(contradiction_with_case(*section.grey_box), HasSubstr("one of these stated numbers"));
+  section.grey_box->conflict.contradicted.clear();
   EXPECT_EQ(contradiction_with_case(*section.grey_box), "");
 }
 

@@ -1,4 +1,5 @@
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -121,13 +122,15 @@ TEST(Suspicions, NameAllPressuresWhereTheirCommonGainIsContradicted) {
         {std::string("outlet pressure ") + motor, std::string("out_") + motor, "Pa", false, ""});
   }
   section.notes.records = {notes};
-  identification::GreyBoxParameterResult supply;
-  supply.parameter.name = "supply pressure as torque";
+  identification::StatedNumberCheck supply;
+  supply.name = "supply pressure as torque";
+  supply.moves_inertia = true;
   supply.departure = 4.0;
-  section.grey_box->parameters = {supply};
+  section.grey_box->stated_numbers = {supply};
   const auto found = suspicions(section);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_THAT(found[0].channels, ElementsAre("in_1", "out_1", "in_2", "out_2"));
+  EXPECT_THAT(found[0].stated_numbers, ElementsAre("supply pressure as torque"));
 }
 
 TEST(Suspicions, NameTheChannelWhoseScaleTheRecordsContradict) {
@@ -138,17 +141,43 @@ TEST(Suspicions, NameTheChannelWhoseScaleTheRecordsContradict) {
   notes.name = "a";
   notes.sources.push_back({"tachometer", "tach_volts", "V", false, ""});
   section.notes.records = {notes};
-  identification::GreyBoxParameterResult scale;
-  scale.parameter.name = "tachometer scale";
-  scale.parameter.prior = 1.0;
-  scale.value = 1.2;
+  identification::StatedNumberCheck scale, inertia;
+  scale.name = "tachometer scale";
+  scale.by_others = normal_interval(1.2, 0.003);
   scale.departure = 60.0;
-  section.grey_box->parameters = {scale};
+  scale.moves_inertia = true;
+  inertia.name = "motor inertia";
+  inertia.departure = -59.8;
+  inertia.moves_inertia = true;
+  section.grey_box->stated_numbers = {inertia, scale};
   const auto found = suspicions(section);
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found[0].finding, "contradicts the case");
   EXPECT_THAT(found[0].channels, ElementsAre("tach_volts"));
   EXPECT_THAT(found[0].records, ElementsAre("a", "b"));
+  EXPECT_THAT(found[0].stated_numbers, ElementsAre("tachometer scale", "motor inertia"));
+  // Where none of those that move the inertia departs, the one that departs most.
+  section.grey_box->stated_numbers[0].departure = 1.0;
+  section.grey_box->stated_numbers[1].departure = -2.0;
+  EXPECT_THAT(suspicions(section)[0].stated_numbers, ElementsAre("tachometer scale"));
+}
+
+TEST(LeastCheckedNumber, IsTheOneWhoseErrorsChangeTheInertiaMostUnseen) {
+  CampaignSection section = fitted();
+  EXPECT_EQ(least_checked_number(section), nullptr);
+  for (const auto& [name, visible, effect] : {std::tuple{"tachometer scale", 0.05, -0.8},
+                                              {"antenna inertia", 0.4, 0.01},
+                                              {"displacement", 0.03, 1.0}}) {
+    identification::StatedNumberCheck one;
+    one.name = name;
+    one.visible_error = visible;
+    one.inertia_effect = effect;
+    section.grey_box->stated_numbers.push_back(one);
+  }
+  ASSERT_NE(least_checked_number(section), nullptr);
+  EXPECT_EQ(least_checked_number(section)->name, "tachometer scale");
+  section.grey_box->conflict.widening = 4.0;
+  EXPECT_EQ(least_checked_number(section), nullptr);
 }
 
 }  // namespace

@@ -114,6 +114,22 @@ Document stated_numbers_part(const io::CampaignSection& section) {
              "  ");
 }
 
+Document influences_part(const io::CampaignSection& section) {
+  if (!section.grey_box || section.grey_box->influences.size() < 2) return {};
+  Document text = heading("Inertia without one record");
+  Rows rows{{"without", "J kg.m2", "95 % interval", "change by it", "information"}};
+  for (const auto& one : section.grey_box->influences) {
+    rows.push_back({one.record, significant(one.inertia.value), range(one.inertia),
+                    fmt::format("{:+.2f} %", 100.0 * one.change),
+                    fmt::format("{:.0f} %", 100.0 * one.information)});
+  }
+  text += table(rows, "lrrrr");
+  return text + wrapped(
+                    "By the first step of a fit without the record. Information: what is the "
+                    "record's alone of that about the inertia as recorded.",
+                    "  ");
+}
+
 Document quantities_part(const io::CampaignSection& section) {
   if (section.quantities.empty()) return {};
   Document text = heading("Other quantities, by method");
@@ -334,6 +350,7 @@ Document document_of(const io::CampaignSection& section) {
   text += friction_part(section);
   text += contradictions_part(section);
   text += stated_numbers_part(section);
+  text += influences_part(section);
   text += advice_part(section);
   text += fit_part(section);
   text += method_notes_part(section);

@@ -301,6 +301,7 @@ GreyBoxResult fit_grey_box(const Campaign& campaign,
       offset_discrepancy(objective, result.posterior, records, parameters,
                          options.discrepancy.torque_balance, unknown);
   result.stated_numbers = check_stated_numbers(parameters, result.posterior);
+  result.influences = record_influences(objective, records, parameters, result.posterior);
   result.conflict = grey_box_conflict(parameters, best.x, result.stated_numbers);
   widen(result.posterior, parameters, result.conflict);
   result.motion = motion_of(records);

@@ -12,6 +12,7 @@
 #include <boresight/identification/grey_box/grey_box_adequacy.hpp>
 #include <boresight/identification/grey_box/grey_box_posterior.hpp>
 #include <boresight/identification/grey_box/grey_box_whiteness.hpp>
+#include <boresight/identification/grey_box/record_influence.hpp>
 #include <boresight/identification/grey_box/stated_number_check.hpp>
 #include <boresight/numerics/statistics/least_squares.hpp>
 
@@ -79,6 +80,7 @@ struct GreyBoxResult {
   /// Each stated number against all else. If one is in doubt (StatedNumberCheck::doubtful_beyond),
   /// random samples and intervals include what follows if it is wrong.
   std::vector<StatedNumberCheck> stated_numbers;
+  std::vector<RecordInfluence> influences;  // of the used records, in their order
   std::vector<GreyBoxQuantity> quantities;
   /// Of the quantities, in their order.
   Eigen::MatrixXd correlation;

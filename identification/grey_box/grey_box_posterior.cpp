@@ -111,6 +111,19 @@ DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const VectorXd
   return e;
 }
 
+VectorXd log_gradient(const GreyBoxParameters& parameters, const VectorXd& point,
+                      double DriveEstimate::*member) {
+  constexpr double step = 1e-4;
+  VectorXd gradient(point.size());
+  for (Index i = 0; i < point.size(); ++i) {
+    const VectorXd move = step * VectorXd::Unit(point.size(), i);
+    gradient(i) = std::log(drive_estimate(parameters, point + move).*member /
+                           (drive_estimate(parameters, point - move).*member)) /
+                  (2.0 * step);
+  }
+  return gradient;
+}
+
 std::vector<DriveEstimate> posterior_samples(const GreyBoxParameters& parameters,
                                              const GreyBoxPosterior& posterior, int count,
                                              std::uint64_t seed) {

@@ -96,6 +96,10 @@ GreyBoxPosterior grey_box_posterior(const GreyBoxObjective& objective, const Eig
 /// The drive at a point.
 DriveEstimate drive_estimate(const GreyBoxParameters& parameters, const Eigen::VectorXd& point);
 
+/// Derivatives of the logarithm of a positive number of the drive by the point.
+Eigen::VectorXd log_gradient(const GreyBoxParameters& parameters, const Eigen::VectorXd& point,
+                             double DriveEstimate::*member);
+
 /// Samples from the posterior, discrepancies included; deterministic by seed.
 std::vector<DriveEstimate> posterior_samples(const GreyBoxParameters& parameters,
                                              const GreyBoxPosterior& posterior, int count,

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include <boresight/identification/grey_box/stated_number_check.hpp>
+#include <boresight/numerics/statistics/lognormal_interval.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -13,7 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using P = GreyBoxParameters;
 
-constexpr double normal_95 = 1.959964;
 constexpr double nearly_as_well = 0.5;  // of a standard uncertainty
 constexpr double gross_errors = 0.02;   // one number of fifty
 constexpr double gross_size = 10.0;     // times the stated uncertainty
@@ -47,24 +47,6 @@ std::vector<StatedNumberCheck> stated_numbers(const P& parameters) {
   return numbers;
 }
 
-// Of the inertia's logarithm.
-VectorXd inertia_gradient(const P& parameters, const VectorXd& point) {
-  constexpr double step = 1e-4;
-  VectorXd gradient(point.size());
-  for (Index i = 0; i < point.size(); ++i) {
-    const VectorXd move = step * VectorXd::Unit(point.size(), i);
-    gradient(i) = std::log(drive_estimate(parameters, point + move).inertia /
-                           drive_estimate(parameters, point - move).inertia) /
-                  (2.0 * step);
-  }
-  return gradient;
-}
-
-numerics::Interval lognormal(double value, double spread) {
-  return {value, value * spread, value * std::exp(-normal_95 * spread),
-          value * std::exp(normal_95 * spread)};
-}
-
 double deviation(const MatrixXd& covariance, const VectorXd& direction) {
   return std::sqrt(std::max(0.0, direction.dot(covariance * direction)));
 }
@@ -95,7 +77,7 @@ GreyBoxPosterior without_stated_number(const GreyBoxPosterior& posterior,
 
 std::vector<StatedNumberCheck> check_stated_numbers(const P& parameters,
                                                     const GreyBoxPosterior& posterior) {
-  const VectorXd gradient = inertia_gradient(parameters, posterior.point);
+  const VectorXd gradient = log_gradient(parameters, posterior.point, &DriveEstimate::inertia);
   const double inertia = drive_estimate(parameters, posterior.point).inertia;
   const double of_inertia =
       std::hypot(deviation(posterior.covariance, gradient), posterior.torque_discrepancy);
@@ -107,12 +89,13 @@ std::vector<StatedNumberCheck> check_stated_numbers(const P& parameters,
     const double distance = u.dot(without.point);
     const double spread = deviation(without.covariance, u);
     const double both = std::hypot(spread, 1.0);
-    check.by_others = lognormal(std::exp(relative * distance), relative * spread);
+    check.by_others =
+        numerics::lognormal_interval(std::exp(relative * distance), relative * spread);
     check.departure = distance / both;
     check.visible_error = std::expm1(StatedNumberCheck::contradicted_beyond * relative * both);
     check.inertia_effect = gradient.dot(posterior.formal * u) / relative;
     const double shift = gradient.dot(without.point - posterior.point);
-    check.inertia = lognormal(
+    check.inertia = numerics::lognormal_interval(
         inertia * std::exp(shift),
         std::hypot(deviation(without.covariance, gradient), posterior.torque_discrepancy));
     check.moves_inertia = u(P::supply_torque) != 0.0 ||

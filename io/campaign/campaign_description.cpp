@@ -126,6 +126,16 @@ void describe_fit(Visitor& v, const CampaignSection& section,
                   "Without it the inertia is another by its standard uncertainty or more; also of "
                   "the supply pressure, which checks the pressure transducers.");
          });
+  v.list("without_record", fit.influences,
+         "The inertia without each record, by the first step of a fit without it.",
+         [&](const identification::RecordInfluence& one) {
+           v.text("record", one.record, "The record.");
+           describe_interval(v, "inertia", one.inertia, "kg m2", "Without the record.");
+           v.number("change", one.change, unit::ratio, "Of the inertia by the record, relative.");
+           v.number("information", one.information, unit::ratio,
+                    "Fraction of the information about the inertia as recorded that is the "
+                    "record's alone.");
+         });
   v.list("residuals", fit.residuals, "Prediction errors of each record and half.",
          [&](const auto& r) {
            v.text("record", r.record, "The record.");

@@ -105,9 +105,8 @@ std::vector<LimitCyclesWithFriction> with_other_friction(
 // Beyond what is compared.
 void add_limit_cycles(const SimulatedLoop& loop, TimeDomainStudy& section) {
   section.limit_cycles_by_friction = with_other_friction(loop, section.options);
-  section.predicted_limit_cycle =
-      largest_stable(LimitCyclePrediction(loop, section.options.threads).of(loop.controller),
-                     min_limit_cycle_amplitude(loop));
+  section.predicted_limit_cycle = predicted_limit_cycle(
+      loop, LimitCyclePrediction(loop, section.options.threads), section.options);
 }
 
 // Violations that limit cycles with the stated friction count as: above the number of runs with

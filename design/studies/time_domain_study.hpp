@@ -71,8 +71,7 @@ struct TimeDomainStudy {
 
   /// With friction_variations; empty for a controller that is only compared.
   std::vector<LimitCyclesWithFriction> limit_cycles_by_friction;
-  /// At rest, by describing functions (largest_stable above half an encoder step). None where
-  /// limit_cycles_by_friction is empty.
+  /// At rest (design::predicted_limit_cycle). None where limit_cycles_by_friction is empty.
   std::optional<PredictedLimitCycle> predicted_limit_cycle;
 
   /// This controller as a candidate.

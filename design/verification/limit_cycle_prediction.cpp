@@ -82,6 +82,11 @@ Complex dead_time(const SimulatedLoop& loop, double frequency) {
   return std::polar(1.0, -1.5 * loop.sample_time * frequency);
 }
 
+bool has_dry_friction(const SimulatedLoop& loop) {
+  const plant::FrictionCurve& friction = loop.antenna.friction.curve;
+  return std::max(friction.breakaway_torque, friction.coulomb_torque) > 0.0;
+}
+
 // Place of a zero in a cell of a grid, 0 to 1 along either side. At a stable one the linear loop
 // has an unstable pair of poles less at the larger amplitude (J. Loeb's criterion).
 struct Zero {
@@ -109,8 +114,7 @@ std::optional<Zero> zero_in(const ArrayXXcd& values, Index i, Index j) {
 
 LimitCyclePrediction::LimitCyclePrediction(const SimulatedLoop& loop, unsigned threads)
     : gear_ratio_(loop.gear_ratio) {
-  const plant::FrictionCurve& friction = loop.antenna.friction.curve;
-  if (!(std::max(friction.breakaway_torque, friction.coulomb_torque) > 0.0)) return;
+  if (!has_dry_friction(loop)) return;
   const double hydraulic =
       two_pi * plant::hydraulic_mode(plant::plant_modes(loop.linear)).frequency;
   const double nyquist = std::numbers::pi / loop.sample_time;
@@ -271,6 +275,25 @@ std::optional<PredictedLimitCycle> largest_stable(const std::vector<PredictedLim
     if (one.stable && one.encoder_amplitude > limit) largest = one;
   }
   return largest;
+}
+
+std::optional<PredictedLimitCycle> predicted_limit_cycle(
+    const SimulatedLoop& loop, const LimitCyclePrediction& harmonic_balance,
+    const NonlinearVerificationOptions& options) {
+  if (!has_dry_friction(loop)) return std::nullopt;
+  std::optional<PredictedLimitCycle> largest;
+  for (std::size_t start = 0; start < limit_cycle_starts; ++start) {
+    const LimitCycleResult run = reduced_limit_cycle_run(loop, options, start);
+    if (!run.limit_cycle) continue;
+    if (largest && run.encoder_amplitude <= largest->encoder_amplitude) continue;
+    largest = {.frequency = run.frequency.value_or(0.0),
+               .encoder_amplitude = run.encoder_amplitude,
+               .boresight_amplitude = run.boresight_amplitude,
+               .stable = true,
+               .confirmed = true};
+  }
+  if (largest) return largest;
+  return largest_stable(harmonic_balance.of(loop.controller), min_limit_cycle_amplitude(loop));
 }
 
 }  // namespace boresight::design

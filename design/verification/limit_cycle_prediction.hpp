@@ -6,19 +6,22 @@
 #include <Eigen/Core>
 
 #include <boresight/control/controllers/controller.hpp>
+#include <boresight/design/verification/nonlinear_verification.hpp>
 #include <boresight/design/verification/simulated_loop.hpp>
 #include <boresight/plant/antenna/plant_response.hpp>
 
 namespace boresight::design {
 
-/// A steady oscillation at rest that harmonic balance predicts.
+/// A steady oscillation at rest that harmonic balance or predicted_limit_cycle predicts.
 struct PredictedLimitCycle {
-  double frequency = 0.0;            // Hz
+  double frequency = 0.0;            // Hz; 0 of a confirmed one with fewer than two periods
   double encoder_amplitude = 0.0;    // rad at the sky, half of peak to peak
   double boresight_amplitude = 0.0;  // the same
   /// Small changes of the amplitude decay, by J. Loeb's criterion; other unstable poles are not
   /// excluded. An unstable limit cycle separates motion that dies out from motion that grows.
   bool stable = false;
+  /// A simulation of the reduced antenna ends in it (predicted_limit_cycle).
+  bool confirmed = false;
 };
 
 /// Limit cycles at rest, without wind and noise, of any controller of one antenna by describing
@@ -71,5 +74,16 @@ class LimitCyclePrediction {
 /// The largest stable one above an amplitude (rad at the sky) at the encoder.
 std::optional<PredictedLimitCycle> largest_stable(const std::vector<PredictedLimitCycle>& predicted,
                                                   double amplitude);
+
+/// The largest limit cycle at rest above min_limit_cycle_amplitude in which simulations of the
+/// reduced antenna end (reduced_limit_cycle_run, from limit_cycle_starts initial steps): confirmed.
+/// If none does, the largest stable one of harmonic balance, not confirmed: it may arise from other
+/// initial states, and mostly does not. The three simulations take some hundredths of a second.
+/// They have bristles and harmonics, which harmonic balance neglects: bristles are what makes its
+/// amplitudes of a few encoder steps too large. `./dev limit-cycles` counts both kinds.
+/// None without dry friction. @throws as LimitCyclePrediction and reduced_limit_cycle_run.
+std::optional<PredictedLimitCycle> predicted_limit_cycle(
+    const SimulatedLoop& loop, const LimitCyclePrediction& harmonic_balance,
+    const NonlinearVerificationOptions& options);
 
 }  // namespace boresight::design

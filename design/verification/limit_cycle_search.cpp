@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include <boresight/design/verification/friction_loop.hpp>
 #include <boresight/design/verification/limit_cycle_search.hpp>
 #include <boresight/numerics/angles.hpp>
 
@@ -52,8 +53,10 @@ std::optional<double> frequency_of(const Swing& swing, double interval) {
 constexpr std::array<double, limit_cycle_starts> nudges{2.0 * millidegree, -1.0 * millidegree,
                                                         8.0 * millidegree};
 
+using Simulation = LoopRun (*)(const SimulatedLoop&, const ReferenceTrajectory&);
+
 LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
-                       double rate, double nudge, double duration) {
+                       double rate, double nudge, double duration, Simulation simulate) {
   const double gear = loop.gear_ratio;
   LimitCycleResult result;
   result.rate = rate;
@@ -63,7 +66,7 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
   };
   const auto course =
       shaped_course(options.limits_at_motor(gear), loop.sample_time, samples, 1, target);
-  const LoopRun run = run_loop(loop, course, {.noise = false});
+  const LoopRun run = simulate(loop, course);
   result.status = run.status;
   result.message = run.message;
   result.encoder_amplitude = result.boresight_amplitude = result.persistence = nan;
@@ -89,11 +92,15 @@ LimitCycleResult watch(const SimulatedLoop& loop, const NonlinearVerificationOpt
   return result;
 }
 
+LoopRun whole_antenna(const SimulatedLoop& loop, const ReferenceTrajectory& course) {
+  return run_loop(loop, course, {.noise = false});
+}
+
 // That confirms a limit cycle.
 LimitCycleResult longer_run(const SimulatedLoop& loop, const NonlinearVerificationOptions& options,
                             double rate, std::size_t start) {
   return watch(loop, options, rate, nudges.at(start),
-               limit_cycle_confirmation * options.limit_cycle_duration);
+               limit_cycle_confirmation * options.limit_cycle_duration, whole_antenna);
 }
 
 // Of the runs at one rate; the first of those alike.
@@ -115,7 +122,14 @@ double min_limit_cycle_amplitude(const SimulatedLoop& loop) {
 LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
                                  const NonlinearVerificationOptions& options, double rate,
                                  std::size_t start) {
-  return watch(loop, options, rate, nudges.at(start), options.limit_cycle_duration);
+  return watch(loop, options, rate, nudges.at(start), options.limit_cycle_duration, whole_antenna);
+}
+
+LimitCycleResult reduced_limit_cycle_run(const SimulatedLoop& loop,
+                                         const NonlinearVerificationOptions& options,
+                                         std::size_t start) {
+  return watch(loop, options, 0.0, nudges.at(start), options.limit_cycle_duration,
+               run_friction_loop);
 }
 
 LimitCycleResult confirmed_limit_cycle_run(const SimulatedLoop& loop,

@@ -18,6 +18,12 @@ LimitCycleResult limit_cycle_run(const SimulatedLoop& loop,
                                  const NonlinearVerificationOptions& options, double rate,
                                  std::size_t start);
 
+/// limit_cycle_run at rest on the reduced antenna of run_friction_loop. @throws as
+/// run_friction_loop.
+LimitCycleResult reduced_limit_cycle_run(const SimulatedLoop& loop,
+                                         const NonlinearVerificationOptions& options,
+                                         std::size_t start);
+
 /// limit_cycle_run; if it shows a limit cycle, instead the run limit_cycle_confirmation times as
 /// long. @throws as run_loop.
 LimitCycleResult confirmed_limit_cycle_run(const SimulatedLoop& loop,

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -36,11 +38,16 @@ SimulatedLoop loop_with(const plant::FrictionCurve& friction, double encoder_ste
   return loop;
 }
 
-LimitCycleResult simulated(const SimulatedLoop& loop) {
+constexpr std::size_t largest_start = 2;
+
+NonlinearVerificationOptions run_options() {
   NonlinearVerificationOptions options;
   options.limits = {250.0 * mdeg, 200.0 * mdeg};
-  constexpr std::size_t largest_start = 2;
-  return confirmed_limit_cycle_run(loop, options, 0.0, largest_start);
+  return options;
+}
+
+LimitCycleResult simulated(const SimulatedLoop& loop) {
+  return confirmed_limit_cycle_run(loop, run_options(), 0.0, largest_start);
 }
 
 const plant::FrictionCurve stribeck{10.33, 16.83, 0.15, 63.29, 1.5, 2.075};
@@ -66,10 +73,50 @@ TEST(LimitCyclePrediction, AgreesWithSimulationOnAmplitudeAndFrequency) {
   }
 }
 
+// Bristles take up part of a motion of a few encoder steps, which harmonic balance neglects.
+TEST(PredictedLimitCycle, HasTheAmplitudeOfTheWholeAntennaWithBristles) {
+  double worst_of_harmonic_balance = 0.0;
+  for (const auto& [controller, stiffness] : {std::pair{pi_controller(0.9, 0.23), 2500.0},
+                                              {pi_controller(0.9, 0.23), 600.0},
+                                              {pi_controller(0.42, 0.235), 2500.0}}) {
+    SimulatedLoop loop = loop_with(stribeck, 0.34 * mdeg, controller);
+    loop.antenna.friction.bristle_stiffness = stiffness;
+    loop.antenna.friction.bristle_damping = 5.0;
+    const LimitCyclePrediction harmonic_balance(loop, 2);
+    const auto predicted = predicted_limit_cycle(loop, harmonic_balance, run_options());
+    const LimitCycleResult run = limit_cycle_run(loop, run_options(), 0.0, largest_start);
+    ASSERT_TRUE(run.limit_cycle && predicted && predicted->confirmed);
+    EXPECT_NEAR(predicted->encoder_amplitude / run.encoder_amplitude, 1.0, 0.1);
+    EXPECT_NEAR(predicted->boresight_amplitude / run.boresight_amplitude, 1.0, 0.1);
+    EXPECT_NEAR(predicted->frequency / run.frequency.value(), 1.0, 0.03);
+    const auto one = largest_stable(harmonic_balance.of(controller), 0.0);
+    ASSERT_TRUE(one);
+    worst_of_harmonic_balance =
+        std::max(worst_of_harmonic_balance, one->encoder_amplitude / run.encoder_amplitude);
+  }
+  EXPECT_GT(worst_of_harmonic_balance, 1.3);
+}
+
+TEST(PredictedLimitCycle, IsUnconfirmedWhereTheReducedAntennaComesToRest) {
+  SimulatedLoop loop = loop_with(stribeck, 0.34 * mdeg, pi_controller(0.2, 0.05));
+  loop.antenna.friction.bristle_stiffness = 600.0;
+  loop.antenna.friction.bristle_damping = 5.0;
+  ASSERT_FALSE(limit_cycle_run(loop, run_options(), 0.0, largest_start).limit_cycle);
+  const LimitCyclePrediction harmonic_balance(loop, 2);
+  const auto predicted = predicted_limit_cycle(loop, harmonic_balance, run_options());
+  const auto one =
+      largest_stable(harmonic_balance.of(loop.controller), min_limit_cycle_amplitude(loop));
+  ASSERT_TRUE(predicted && one);
+  EXPECT_FALSE(predicted->confirmed);
+  EXPECT_EQ(predicted->encoder_amplitude, one->encoder_amplitude);
+}
+
 TEST(LimitCyclePrediction, FindsNoneWithoutDryFrictionOrWithoutIntegrals) {
   const SimulatedLoop frictionless =
       loop_with({0.0, 0.0, 1.0, 0.0, 1.0, 2.0}, 0.34 * mdeg, pi_controller(0.9, 0.23));
-  EXPECT_TRUE(LimitCyclePrediction(frictionless, 1).of(frictionless.controller).empty());
+  const LimitCyclePrediction none(frictionless, 1);
+  EXPECT_TRUE(none.of(frictionless.controller).empty());
+  EXPECT_FALSE(predicted_limit_cycle(frictionless, none, run_options()));
   // A slow loop whose leaky integral gives way to friction.
   const SimulatedLoop slow = loop_with(stribeck, 0.34 * mdeg, pi_controller(0.9, 0.23));
   const control::Controller leaky{control::LoopStructure::pi_with_lag().with_position_lag(),

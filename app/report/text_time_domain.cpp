@@ -152,13 +152,12 @@ Document predicted_part(const TimeDomainSection& section) {
   if (section.limit_cycles_by_friction.empty()) return {};
   std::string text = "no limit cycle above half an encoder step.";
   if (const auto& one = section.predicted_limit_cycle) {
-    text = fmt::format("+-{} mdeg at the encoder, {:.3g} Hz{}.", mdeg(one->encoder_amplitude),
-                       one->frequency,
-                       one->encoder_amplitude > section.encoder_resolution
-                           ? ""
-                           : "; below one encoder step most loops come to rest");
+    text = fmt::format("+-{} mdeg at the encoder", mdeg(one->encoder_amplitude));
+    if (one->frequency > 0.0) text += fmt::format(", {:.3g} Hz", one->frequency);
+    text += one->confirmed ? ", by simulation of a reduced antenna."
+                           : ", by describing functions alone; most such loops come to rest.";
   }
-  return wrapped("Describing functions predict at rest: " + text, "  ", "  ");
+  return wrapped("Predicted at rest: " + text, "  ", "  ");
 }
 
 // Limit cycles with friction variations.

@@ -121,11 +121,18 @@ void describe_other_friction(Visitor& v, const std::vector<design::LimitCyclesWi
 void describe_predicted(Visitor& v, const std::optional<design::PredictedLimitCycle>& predicted) {
   v.optional_group(
       "predicted_limit_cycle", predicted,
-      "The largest at rest that describing functions predict, above half an encoder step; null for "
-      "none, and where limit_cycles_by_friction is empty.",
+      "The largest at rest, above half an encoder step, by simulation of a reduced antenna or else "
+      "by "
+      "describing functions; null for none, and where limit_cycles_by_friction is empty.",
       [&](const design::PredictedLimitCycle& one) {
-        v.defined_as("predicted_limit_cycle", "By harmonic balance; no verdict rests on it.");
-        v.number("frequency", one.frequency, unit::hertz, "Of the oscillation.", known);
+        v.defined_as("predicted_limit_cycle", "An estimate; no verdict rests on it.");
+        v.flag(
+            "confirmed", one.confirmed,
+            "By simulation of a reduced antenna; otherwise by describing functions alone, of which "
+            "most do not arise.");
+        v.number("frequency", one.frequency, unit::hertz,
+                 "Of the oscillation; 0 for a confirmed one of fewer than two periods in 100 s.",
+                 known);
         v.number("encoder_amplitude", one.encoder_amplitude, unit::millidegree,
                  "Half of peak to peak.", known);
         v.number("boresight_amplitude", one.boresight_amplitude, unit::millidegree, "The same.",

@@ -1,14 +1,18 @@
-// How often describing functions (design::LimitCyclePrediction) miss the limit cycles that the
-// nonlinear simulation shows, over random controllers, friction and encoders on one antenna:
+// How often describing functions (design::LimitCyclePrediction), alone and with simulation of a
+// reduced antenna (design::predicted_limit_cycle), miss the limit cycles that the nonlinear
+// simulation shows, over random controllers, friction and encoders on one antenna:
 //   boresight_limit_cycles CASE [FRICTIONS CONTROLLERS SEED THREADS]
-// CONTROLLERS for each of FRICTIONS (default 40, 25, 1, 2). Prints a table; the time a prediction
-// takes goes to the error output.
+// CONTROLLERS for each of FRICTIONS (default 40, 25, 1, 2). Prints a table for each prediction and
+// how far the simulation agrees with itself; the time that predictions take goes to the error
+// output.
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <exception>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -27,11 +31,21 @@ namespace {
 using namespace boresight;
 using Clock = std::chrono::steady_clock;
 
+using Prediction = std::optional<design::PredictedLimitCycle>;
+
 struct Outcome {
   design::LimitCycleResult simulated;
-  std::optional<design::PredictedLimitCycle> predicted;
+  std::vector<design::LimitCycleResult> runs;  // one from each start
+  Prediction by_describing_functions;
+  Prediction predicted;
   double step = 0.0;  // rad at the sky
+
+  Prediction confirmed() const {
+    return predicted && predicted->confirmed ? predicted : std::nullopt;
+  }
 };
+
+constexpr double amplitude_tolerance = 0.3, frequency_tolerance = 0.2;
 
 double milliseconds_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
@@ -45,7 +59,7 @@ struct Range {
 };
 
 struct Count {
-  int completed = 0, at_rest = 0, false_alarms = 0, false_alarms_beyond_a_step = 0;
+  int at_rest = 0, false_alarms = 0, false_alarms_beyond_a_step = 0;
   std::vector<Range> ranges{{"0.5 to 1", 0.5, 1.0},
                             {"1 to 3", 1.0, 3.0},
                             {"3 to 10", 3.0, 10.0},
@@ -53,12 +67,14 @@ struct Count {
                             {"all", 0.0, 1e300}};
 };
 
-Count count(const std::vector<Outcome>& outcomes) {
-  constexpr double amplitude_tolerance = 0.3, frequency_tolerance = 0.2;
+template <typename PredictionOf>
+Count count(const std::vector<Outcome>& outcomes, const PredictionOf& prediction_of) {
   Count all;
-  for (const auto& [simulated, predicted, step] : outcomes) {
+  for (const Outcome& outcome : outcomes) {
+    const design::LimitCycleResult& simulated = outcome.simulated;
+    const double step = outcome.step;
+    const Prediction predicted = prediction_of(outcome);
     if (simulated.status != design::RunStatus::complete) continue;
-    ++all.completed;
     if (!simulated.limit_cycle) {
       ++all.at_rest;
       all.false_alarms += predicted ? 1 : 0;
@@ -83,6 +99,55 @@ Count count(const std::vector<Outcome>& outcomes) {
   return all;
 }
 
+std::string with_percent(int part, int whole) {
+  return fmt::format("{} ({:.1f} %)", part, whole > 0 ? 100.0 * part / whole : 0.0);
+}
+
+void print(const char* title, const Count& found) {
+  fmt::print(
+      "{}\n\n"
+      "| amplitude simulated, encoder steps | loops | missed | amplitude within 30 % | frequency "
+      "within 20 % |\n"
+      "|---|---|---|---|---|\n",
+      title);
+  for (const Range& range : found.ranges) {
+    const int predicted = range.cycles - range.missed;
+    fmt::print("| {} | {} | {} | {} | {} |\n", range.name, range.cycles,
+               with_percent(range.missed, range.cycles), with_percent(range.amplitudes, predicted),
+               with_percent(range.frequencies, predicted));
+  }
+  fmt::print(
+      "\nOf {} loops that come to rest from each of three starts, one is predicted for {}, of more "
+      "than one encoder step for {}.\n\n",
+      found.at_rest, with_percent(found.false_alarms, found.at_rest),
+      with_percent(found.false_alarms_beyond_a_step, found.at_rest));
+}
+
+// How far the simulation agrees with itself: runs of one loop from two starts.
+void print_agreement_of_starts(const std::vector<Outcome>& outcomes) {
+  int pairs = 0, alike = 0, both = 0, near = 0;
+  for (const Outcome& outcome : outcomes) {
+    if (outcome.simulated.status != design::RunStatus::complete) continue;
+    for (std::size_t i = 0; i < outcome.runs.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const auto& one = outcome.runs[i];
+        const auto& other = outcome.runs[k];
+        if (!one.limit_cycle && !other.limit_cycle) continue;
+        ++pairs;
+        alike += one.limit_cycle == other.limit_cycle ? 1 : 0;
+        if (!one.limit_cycle || !other.limit_cycle) continue;
+        ++both;
+        const auto [small, large] = std::minmax(one.encoder_amplitude, other.encoder_amplitude);
+        near += large <= (1.0 + amplitude_tolerance) * small ? 1 : 0;
+      }
+    }
+  }
+  fmt::print(
+      "Of pairs of simulations from two starts of which one limit-cycles the other does in {}. Of "
+      "pairs that both do, the amplitudes agree within 30 % in {}.\n",
+      with_percent(alike, pairs), with_percent(near, both));
+}
+
 int run(const std::vector<std::string>& words) {
   const auto number = [&](std::size_t place, unsigned otherwise) {
     return words.size() > place ? static_cast<unsigned>(std::stoul(words[place])) : otherwise;
@@ -94,14 +159,13 @@ int run(const std::vector<std::string>& words) {
 
   std::vector<Outcome> outcomes(static_cast<std::size_t>(frictions) * each);
   std::vector<double> of_tables(frictions), of_controllers(outcomes.size()),
-      of_runs(outcomes.size());
+      of_confirmations(outcomes.size()), of_runs(outcomes.size());
   numerics::for_each_index(all.size(), threads, [&](std::size_t i) {
     design::SimulatedLoop loop = all[i].antenna;
     auto start = Clock::now();
     const design::LimitCyclePrediction prediction(loop, 1);
     of_tables[i] = milliseconds_since(start);
     design::NonlinearVerificationOptions options;
-
     options.limits = {mission.antenna.drive.slew_rate, design::slew_acceleration};
     for (std::size_t k = 0; k < all[i].controllers.size(); ++k) {
       loop.controller = all[i].controllers[k];
@@ -109,7 +173,10 @@ int run(const std::vector<std::string>& words) {
       start = Clock::now();
       const auto predicted = prediction.of(loop.controller);
       of_controllers[i * each + k] = milliseconds_since(start);
-      outcome.predicted = largest_stable(predicted, min_limit_cycle_amplitude(loop));
+      outcome.by_describing_functions = largest_stable(predicted, min_limit_cycle_amplitude(loop));
+      start = Clock::now();
+      outcome.predicted = predicted_limit_cycle(loop, prediction, options);
+      of_confirmations[i * each + k] = milliseconds_since(start);
       outcome.step = loop.encoder_resolution / loop.gear_ratio;
       start = Clock::now();
       std::vector<design::LimitCycleResult> runs;
@@ -117,42 +184,35 @@ int run(const std::vector<std::string>& words) {
         runs.push_back(limit_cycle_run(loop, options, 0.0, begin));
       }
       of_runs[i * each + k] = milliseconds_since(start) / design::limit_cycle_starts;
+      outcome.runs = runs;
       outcome.simulated = confirmed_limit_cycle(loop, options, 0.0, runs);
     }
   });
 
-  const Count found = count(outcomes);
+  const auto complete = std::ranges::count_if(outcomes, [](const Outcome& outcome) {
+    return outcome.simulated.status == design::RunStatus::complete;
+  });
   fmt::print(
-      "{} loops at rest ({} frictions and encoders x {} controllers), {} simulated to the end.\n\n",
-      outcomes.size(), frictions, each, found.completed);
-  fmt::print(
-      "| amplitude simulated, encoder steps | loops | missed | amplitude within 30 % | frequency "
-      "within 20 % |\n"
-      "|---|---|---|---|---|\n");
-  const auto with_percent = [](int part, int whole) {
-    return fmt::format("{} ({:.1f} %)", part, whole > 0 ? 100.0 * part / whole : 0.0);
-  };
-  for (const Range& range : found.ranges) {
-    fmt::print("| {} | {} | {} | {} | {} |\n", range.name, range.cycles,
-               with_percent(range.missed, range.cycles),
-               with_percent(range.amplitudes, range.cycles),
-               with_percent(range.frequencies, range.cycles));
-  }
-  fmt::print(
-      "\n{} loops come to rest from each of three starts. A limit cycle is predicted for {} of "
-      "them, "
-      "of more than one encoder step for {}.\n",
-      found.at_rest, with_percent(found.false_alarms, found.at_rest),
-      with_percent(found.false_alarms_beyond_a_step, found.at_rest));
+      "{} loops at rest ({} frictions and encoders x {} controllers), {} simulated to the end. "
+      "Amplitude and frequency are counted where one is predicted.\n\n",
+      outcomes.size(), frictions, each, complete);
+  print("Describing functions alone",
+        count(outcomes, [](const Outcome& one) { return one.by_describing_functions; }));
+  print("Confirmed by simulation of the reduced antenna",
+        count(outcomes, [](const Outcome& one) { return one.confirmed(); }));
+  print("Confirmed, or else by describing functions",
+        count(outcomes, [](const Outcome& one) { return one.predicted; }));
+  print_agreement_of_starts(outcomes);
   const auto mean = [](const std::vector<double>& times) {
     double sum = 0.0;
     for (const double time : times) sum += time;
     return sum / static_cast<double>(times.size());
   };
   fmt::print(stderr,
-             "{:.0f} ms for the tables of a friction, {:.2f} ms for a controller, {:.0f} ms for a "
-             "simulated run\n",
-             mean(of_tables), mean(of_controllers), mean(of_runs));
+             "{:.0f} ms for the tables of a friction, {:.2f} ms for a controller by describing "
+             "functions, {:.0f} ms with simulations of the reduced antenna, {:.0f} ms for a run of "
+             "the whole one\n",
+             mean(of_tables), mean(of_controllers), mean(of_confirmations), mean(of_runs));
   return 0;
 }
 

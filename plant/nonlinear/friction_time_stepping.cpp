@@ -17,13 +17,13 @@ constexpr double smallest = 1e-6;
 
 FrictionTimeStepping::FrictionTimeStepping(const FrictionAntenna& antenna, double step)
     : friction_(antenna.friction),
+      smallest_friction_(
+          smallest * std::max(friction_.curve.breakaway_torque, friction_.curve.coulomb_torque)),
       step_(step),
       offset_torque_(antenna.offset_torque),
       supply_torque_(antenna.supply_torque),
       oil_stiffness_(antenna.linear.drive.oil_stiffness) {
   validate(friction_);
-  smallest_friction_ =
-      smallest * std::max(friction_.curve.breakaway_torque, friction_.curve.coulomb_torque);
   if (!(smallest_friction_ > 0.0)) {
     throw InvalidInput("friction time stepping: expected dry friction, found none");
   }
@@ -105,7 +105,7 @@ double FrictionTimeStepping::rate_with_friction(double free_rate) {
     if (std::abs(excess.value) <= accuracy * high) break;
     (excess.value > 0.0 ? high : low) = w;
     w -= excess.value / excess.derivative;
-    if (!(w >= low && w <= high)) w = 0.5 * (low + high);
+    if (w < low || w > high) w = 0.5 * (low + high);
   }
   bristle_ = sign * bristle;
   return sign * w;

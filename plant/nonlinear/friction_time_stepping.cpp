@@ -96,7 +96,8 @@ double FrictionTimeStepping::rate_with_friction(double free_rate) {
         1.0 + rate_per_torque_ * ((stiffness + damping / step_) * by_rate + viscous)};
   };
   double low = 0.0;
-  double high = free + rate_per_torque_ * std::max(stiffness, damping / step_) * std::abs(bent);
+  double high = std::max(
+      0.0, free + rate_per_torque_ * std::max(stiffness, damping / step_) * std::abs(bent));
   double w = std::clamp(sign * state_[rate_state], low, high);
   constexpr int max_iterations = 40;
   constexpr double accuracy = 1e-7;

@@ -122,8 +122,7 @@ void describe_predicted(Visitor& v, const std::optional<design::PredictedLimitCy
   v.optional_group(
       "predicted_limit_cycle", predicted,
       "The largest at rest, above half an encoder step, by simulation of a reduced antenna or else "
-      "by "
-      "describing functions; null for none, and where limit_cycles_by_friction is empty.",
+      "by describing functions; null for none, and where limit_cycles_by_friction is empty.",
       [&](const design::PredictedLimitCycle& one) {
         v.defined_as("predicted_limit_cycle", "An estimate; no verdict rests on it.");
         v.flag(

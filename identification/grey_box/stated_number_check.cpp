@@ -32,7 +32,7 @@ std::vector<StatedNumberCheck> stated_numbers(const P& parameters) {
   const auto& list = parameters.list();
   for (Index i = 0; i < n; ++i) {
     const GreyBoxParameter& one = list[static_cast<std::size_t>(i)];
-    if (!one.from_drawings || !one.logarithmic || !(one.spread > 0.0)) continue;
+    if (!one.from_drawings || !(one.spread > 0.0)) continue;
     numbers.push_back(stated(one.name, VectorXd::Unit(n, i), one.spread));
   }
   const double torque = list[P::torque_factor].spread;
@@ -105,18 +105,25 @@ std::vector<StatedNumberCheck> check_stated_numbers(const P& parameters,
 }
 
 std::vector<StatedNumberCheck> departing_numbers(const std::vector<StatedNumberCheck>& checks,
-                                                 double beyond) {
-  std::vector<StatedNumberCheck> departing;
+                                                 double beyond, StatedNumbers which) {
+  constexpr double most_wrong = 10.0;
   const auto departure = [](const StatedNumberCheck& one) { return std::abs(one.departure); };
-  double largest = 0.0;
-  for (const auto& one : checks) {
-    if (one.moves_inertia) largest = std::max(largest, departure(one));
-  }
-  if (!(largest >= beyond)) return departing;
-  std::ranges::copy_if(checks, std::back_inserter(departing), [&](const auto& one) {
-    return one.moves_inertia && departure(one) >= largest - nearly_as_well;
+  std::vector<StatedNumberCheck> departing;
+  std::ranges::copy_if(checks, std::back_inserter(departing), [&](const StatedNumberCheck& one) {
+    return which == StatedNumbers::all || one.moves_inertia;
   });
+  const auto is_tenfold = [](const StatedNumberCheck& one) {
+    return std::abs(std::log(one.by_others.value)) > std::log(most_wrong);
+  };
+  if (std::ranges::any_of(departing, [&](const StatedNumberCheck& one) {
+        return departure(one) >= beyond && !is_tenfold(one);
+      })) {
+    std::erase_if(departing, is_tenfold);
+  }
   std::ranges::stable_sort(departing, std::ranges::greater{}, departure);
+  if (departing.empty() || departure(departing.front()) < beyond) return {};
+  const double least = departure(departing.front()) - nearly_as_well;
+  std::erase_if(departing, [&](const StatedNumberCheck& one) { return departure(one) < least; });
   return departing;
 }
 

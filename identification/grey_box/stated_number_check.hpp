@@ -39,8 +39,9 @@ struct StatedNumberCheck {
   Eigen::VectorXd direction;  // along which the number varies, a unit vector of the fit's points
 };
 
-/// Checks every stated positive number of the fit that has an uncertainty, and the displacement,
-/// which enters torque and flow alike. Its `posterior` is that of grey_box_posterior.
+/// Checks every stated number of the fit that has an uncertainty, and the displacement, which
+/// enters torque and flow alike; of the gains of inlets against outlets their ratio. Its
+/// `posterior` is that of grey_box_posterior.
 ///
 /// The fit's own value of a number is no check of it: where the records say nothing of a scale, the
 /// fit returns what was stated. So one prior at a time is taken out of the posterior
@@ -56,11 +57,14 @@ std::vector<StatedNumberCheck> check_stated_numbers(const GreyBoxParameters& par
 GreyBoxPosterior without_stated_number(const GreyBoxPosterior& posterior,
                                        const Eigen::VectorXd& direction);
 
-/// Of the numbers that move the inertia, the one that departs most, by at least `beyond`, and after
-/// it those that depart by at most 0.5 less, in order: each would explain the records nearly as
-/// well if it alone were wrong. None if none departs so far.
-std::vector<StatedNumberCheck> departing_numbers(const std::vector<StatedNumberCheck>& checks,
-                                                 double beyond);
+enum class StatedNumbers { that_move_inertia, all };
+/// Of some numbers the one that departs most, by at least `beyond`, and after it those that depart
+/// by at most 0.5 less, in order: each would explain the records nearly as well if it alone were
+/// wrong. Not those that would have to be wrong more than tenfold, unless all would. None if none
+/// departs so far.
+std::vector<StatedNumberCheck> departing_numbers(
+    const std::vector<StatedNumberCheck>& checks, double beyond,
+    StatedNumbers which = StatedNumbers::that_move_inertia);
 
 /// Probability that each number that moves the inertia is the one that is grossly wrong (of the
 /// others: 0), if one of fifty is before the records and its error has ten times the stated

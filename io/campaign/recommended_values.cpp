@@ -139,6 +139,7 @@ const std::vector<ChannelScale>& channel_scales() {
       {"tachometer scale", {"tachometer"}},
       {"pressure gain", {"inlet pressure", "outlet pressure"}},
       {"torque per pressure", {"inlet pressure", "outlet pressure"}},
+      {"unlike gains of inlets and outlets", {"inlet pressure", "outlet pressure"}},
       {"flow per rate", {"tachometer"}},
       {"displacement", {"inlet pressure", "outlet pressure", "tachometer"}},
       {"supply pressure as torque", {"inlet pressure", "outlet pressure"}},
@@ -161,13 +162,30 @@ std::vector<std::string> columns_of(const CampaignNotes& notes,
   return columns;
 }
 
-// What all else contradicts in the numbers that move the inertia, or else what it contradicts most.
+// The numbers that all else contradicts, those that move the inertia first; then scales of channels
+// that the fit itself moved away from what is stated.
 std::vector<StatedNumberCheck> contradicted_numbers(const identification::GreyBoxResult& fit) {
-  auto numbers = identification::departing_numbers(fit.stated_numbers, beyond_stated);
-  if (numbers.empty() && !fit.stated_numbers.empty()) {
-    numbers.push_back(*std::ranges::max_element(
-        fit.stated_numbers, {}, [](const auto& one) { return std::abs(one.departure); }));
+  using identification::StatedNumbers;
+  const auto& checks = fit.stated_numbers;
+  auto numbers = identification::departing_numbers(checks, beyond_stated);
+  const auto append = [&](const StatedNumberCheck& one) {
+    if (std::ranges::find(numbers, one.name, &StatedNumberCheck::name) == numbers.end()) {
+      numbers.push_back(one);
+    }
+  };
+  for (const auto& one :
+       identification::departing_numbers(checks, beyond_stated, StatedNumbers::all)) {
+    append(one);
   }
+  for (const auto& parameter : fit.parameters) {
+    if (std::abs(parameter.departure) < beyond_stated) continue;
+    const auto one = std::ranges::find(checks, parameter.parameter.name, &StatedNumberCheck::name);
+    const bool is_scale = std::ranges::any_of(channel_scales(), [&](const ChannelScale& scale) {
+      return scale.parameter == parameter.parameter.name;
+    });
+    if (is_scale && one != checks.end()) append(*one);
+  }
+  if (numbers.empty()) numbers = identification::departing_numbers(checks, 0.0, StatedNumbers::all);
   return numbers;
 }
 

@@ -10,6 +10,7 @@
 
 #include "identification/synthetic_drive.hpp"
 #include <boresight/identification/grey_box/stated_number_check.hpp>
+#include <boresight/numerics/statistics/lognormal_interval.hpp>
 
 namespace boresight::identification {
 namespace {
@@ -134,6 +135,12 @@ TEST(DepartingNumbers, AreThoseThatExplainTheRecordsNearlyAsWell) {
   EXPECT_EQ(found[0].name, "b");
   EXPECT_EQ(found[1].name, "a");
   EXPECT_TRUE(departing_numbers(checks, 3.7).empty());
+  EXPECT_EQ(departing_numbers(checks, 3.5, StatedNumbers::all)[0].name, "d");
+  // An error of more than tenfold explains nothing, unless all else would have to be as wrong.
+  checks[1].by_others = numerics::lognormal_interval(1e-3, 0.01);
+  EXPECT_EQ(departing_numbers(checks, 3.0)[0].name, "a");
+  checks[0].by_others = checks[1].by_others;
+  EXPECT_EQ(departing_numbers(checks, 3.0)[0].name, "b");
 }
 
 TEST(GrossErrorProbabilities, AreThoseOfTheDensities) {

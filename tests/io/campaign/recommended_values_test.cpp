@@ -147,6 +147,7 @@ TEST(Suspicions, NameTheChannelWhoseScaleTheRecordsContradict) {
   scale.departure = 60.0;
   scale.moves_inertia = true;
   inertia.name = "motor inertia";
+  inertia.by_others = normal_interval(0.8, 0.01);
   inertia.departure = -59.8;
   inertia.moves_inertia = true;
   section.grey_box->stated_numbers = {inertia, scale};

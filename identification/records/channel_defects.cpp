@@ -90,21 +90,6 @@ double through(const Eigen::VectorXd& values, const std::vector<Index>& nodes, I
   return sum;
 }
 
-// A short run of missing samples from up to two present ones on either side; false where it is
-// long, or at an end.
-bool fill(Eigen::VectorXd& values, const Run& run) {
-  constexpr Index longest = 3;
-  if (run.length() > longest || run.begin < 1 || run.end >= values.size()) return false;
-  std::vector<Index> nodes;
-  for (const Index node : {run.begin - 2, run.begin - 1, run.end, run.end + 1}) {
-    if (node >= 0 && node < values.size() && std::isfinite(values[node])) nodes.push_back(node);
-  }
-  Eigen::VectorXd filled(run.length());
-  for (Index i = 0; i < run.length(); ++i) filled[i] = through(values, nodes, run.begin + i);
-  values.segment(run.begin, run.length()) = filled;
-  return true;
-}
-
 // Absolute difference of a sample from the one before, 0 if one is missing.
 double step_at(const Eigen::VectorXd& values, Index i) {
   const double step = std::abs(values[i] - values[i - 1]);
@@ -116,6 +101,19 @@ double step_at(const Eigen::VectorXd& values, Index i) {
 double spread(const Eigen::VectorXd& values) {
   const Extremes extremes = extremes_of(values, 0, values.size());
   return std::max(0.0, extremes.largest - extremes.smallest);
+}
+
+bool fill_from_neighbours(Eigen::VectorXd& values, Index begin, Index end) {
+  constexpr Index longest = 3;
+  if (end - begin > longest || begin < 1 || end >= values.size()) return false;
+  std::vector<Index> nodes;
+  for (const Index node : {begin - 2, begin - 1, end, end + 1}) {
+    if (node >= 0 && node < values.size() && std::isfinite(values[node])) nodes.push_back(node);
+  }
+  Eigen::VectorXd filled(end - begin);
+  for (Index i = begin; i < end; ++i) filled[i - begin] = through(values, nodes, i);
+  values.segment(begin, end - begin) = filled;
+  return true;
 }
 
 double finite_median(const Eigen::VectorXd& values) {
@@ -158,7 +156,7 @@ std::vector<RecordDefect> missing_samples(RawChannel& channel, const Eigen::Vect
     if (std::isfinite(values[i])) continue;
     Run run{i, i + 1};
     while (run.end < values.size() && !std::isfinite(values[run.end])) ++run.end;
-    if (bridge && fill(values, run)) {
+    if (bridge && fill_from_neighbours(values, run.begin, run.end)) {
       if (bridged == 0) first_bridged = i;
       bridged += run.length();
     } else {

@@ -17,8 +17,13 @@ std::vector<RecordDefect> mask_spikes(RawChannel& channel, const Eigen::VectorXd
 std::vector<RecordDefect> mask_stuck(RawChannel& channel,
                                      const std::vector<const RawChannel*>& others,
                                      const Eigen::VectorXd& time);
-/// Missing samples, which are NaN already. With `bridge`, at most three in a row are filled by the
-/// polynomial through up to two present ones on either side (a cubic).
+/// Fills the samples from `begin` to before `end`, which are NaN, by the polynomial through up to
+/// two present ones on either side (a cubic). False, and nothing is filled, for more than three and
+/// at either end.
+bool fill_from_neighbours(Eigen::VectorXd& values, Eigen::Index begin, Eigen::Index end);
+
+/// Missing samples, which are NaN already. With `bridge`, at most three in a row are filled from
+/// their neighbours.
 std::vector<RecordDefect> missing_samples(RawChannel& channel, const Eigen::VectorXd& time,
                                           bool bridge);
 

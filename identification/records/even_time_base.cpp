@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <boresight/identification/records/channel_defects.hpp>
 #include <boresight/identification/records/even_time_base.hpp>
 #include <boresight/numerics/statistics/order_statistics.hpp>
 
@@ -283,6 +284,7 @@ class TimeBaseMaker {
       for (const double place : order) base_.places.push_back(static_cast<Index>(place));
       base_.samples = base_.places.back() + 1;
       base_.longest_step = 1.75 * line.slope;
+      base_.fills_short_gaps = options_.fill_short_gaps;
     } else {
       start_ = base_.times.front();
       // Jitter moves samples and adds none.
@@ -295,7 +297,10 @@ class TimeBaseMaker {
     }
     if (gaps > 0) {
       add(DefectKind::gap, DefectHandling::masked, first_gap, missing,
-          fmt::format("{} gaps without samples, the longest {:.4g} s", gaps, longest));
+          fmt::format("{} gaps without samples, the longest {:.4g} s{}", gaps, longest,
+                      base_.fills_short_gaps
+                          ? "; at most three samples at a time are filled from their neighbours"
+                          : ""));
     }
   }
 
@@ -321,6 +326,25 @@ class TimeBaseMaker {
   double start_ = 0.0;
   bool changed_ = false;
 };
+
+// Grid samples between two rows, where both have values.
+void fill_short_gaps(const EvenTimeBase& base, Signal& signal) {
+  Eigen::VectorXd values = signal.values;
+  for (Index i = 0; i < values.size(); ++i) {
+    if (!signal.valid[static_cast<std::size_t>(i)]) values[i] = std::nan("");
+  }
+  for (std::size_t i = 1; i < base.places.size(); ++i) {
+    const Index before = base.places[i - 1], after = base.places[i];
+    if (after == before + 1 || !std::isfinite(values[before]) || !std::isfinite(values[after])) {
+      continue;
+    }
+    if (!fill_from_neighbours(values, before + 1, after)) continue;
+    for (Index k = before + 1; k < after; ++k) {
+      signal.values[k] = values[k];
+      signal.valid[static_cast<std::size_t>(k)] = true;
+    }
+  }
+}
 
 // Straight lines over what is not valid, the nearest valid value before the first and behind the
 // last.
@@ -363,6 +387,7 @@ Signal on_time_base(const EvenTimeBase& base, const Eigen::VectorXd& values) {
       signal.values[base.places[i]] = value;
       signal.valid[static_cast<std::size_t>(base.places[i])] = true;
     }
+    if (base.fills_short_gaps) fill_short_gaps(base, signal);
   } else {
     std::size_t row = 0;
     for (Index i = 0; i < base.samples; ++i) {

@@ -19,6 +19,8 @@ struct EvenTimeBase {
   std::vector<Eigen::Index> places;
   /// s: rows further apart leave the grid between them empty.
   double longest_step = 0.0;
+  /// Grid samples without a row, at most three in a row, are filled from their neighbours.
+  bool fills_short_gaps = false;
 };
 
 /// Times that cannot be used, and of which kind their defect is.
@@ -34,8 +36,8 @@ class UnusableTimes : public InvalidInput {
 EvenTimeBase even_time_base(const Eigen::VectorXd& time, const DefectOptions& options,
                             std::vector<RecordDefect>& defects);
 
-/// A channel on the grid; NaN among the values (one a sample of the file) is not valid. All
-/// invalid: zeros.
+/// A channel on the grid; NaN among the values (one a sample of the file) is not valid. Samples
+/// that were filled (fills_short_gaps) are. All invalid: zeros.
 Signal on_time_base(const EvenTimeBase& base, const Eigen::VectorXd& values);
 
 }  // namespace boresight::identification

@@ -22,7 +22,10 @@ Index finite_count(const Eigen::VectorXd& values) {
 
 class Cleaner {
  public:
-  Cleaner(RawRecord raw, const DefectOptions& options) : raw_(std::move(raw)), options_(options) {}
+  Cleaner(RawRecord raw, const DefectOptions& options) : raw_(std::move(raw)), options_(options) {
+    // Lines ring as fast as a few samples.
+    options_.fill_short_gaps = raw_.test != TestKind::slosh;
+  }
 
   CleanRecord clean() {
     try {
@@ -99,7 +102,7 @@ class Cleaner {
   }
 
   void note_missing() {
-    const bool bridge = raw_.test != TestKind::slosh;
+    const bool bridge = options_.fill_short_gaps;
     for (RawChannel* channel : sensors()) add(missing_samples(*channel, raw_.time, bridge));
     for (auto* command : {&raw_.rate_command, &raw_.valve_command}) {
       if (*command) add(missing_samples(**command, raw_.time, bridge));
@@ -332,7 +335,7 @@ class Cleaner {
   }
 
   RawRecord raw_;
-  const DefectOptions& options_;
+  DefectOptions options_;
   CleanRecord result_;
   double limit_ = std::numeric_limits<double>::infinity();
   DefectKind refusal_kind_ = DefectKind::too_short;

@@ -87,6 +87,9 @@ struct DefectOptions {
   Eigen::Index guard_samples = 2;
   /// Times within this fraction of the sample time count as lying on the even grid.
   double jitter_tolerance = 0.02;
+  /// Lost lines, at most three at a time, count as missing samples and are filled from their
+  /// neighbours. clean_record sets it but for slosh tests.
+  bool fill_short_gaps = false;
   /// A pressure that moves less than this fraction of the others' motion counts as dead.
   double dead_fraction = 0.02;
   /// Motors (from 0) whose ports are exchanged according to the campaign as a whole. Both pressures

@@ -18,8 +18,9 @@ TEST(CleanRecord, LeavesSamplesWithoutTimeOut) {
   const CleanRecord clean = clean_record(raw);
   EXPECT_EQ(of(clean, DefectKind::missing_times).at(0).first, 70);
   EXPECT_EQ(clean.record->samples(), length);
-  EXPECT_FALSE(clean.record->motor_rate.is_valid(70));
-  EXPECT_TRUE(clean.record->motor_rate.is_valid(71));
+  // As a lost line: from its neighbours.
+  EXPECT_TRUE(clean.record->motor_rate.is_valid(70));
+  EXPECT_NEAR(clean.record->motor_rate.values[70], rate_at(70 * step), 0.03);
   EXPECT_EQ(clean.record->motor_rate.values[71], raw.tachometer.values[71]);
 }
 
@@ -31,7 +32,7 @@ TEST(CleanRecord, LeavesARepeatedTimeOut) {
   EXPECT_EQ(defect.count, 1);
   EXPECT_NEAR(static_cast<double>(defect.first), 299.5, 0.6);
   EXPECT_EQ(defect.handling, DefectHandling::left_out);
-  EXPECT_EQ(invalid_count(clean.record->motor_rate), 1);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 0);
   EXPECT_EQ(clean.record->motor_rate.values[301], raw.tachometer.values[301]);
 }
 
@@ -43,7 +44,7 @@ TEST(CleanRecord, LeavesTimesThatRunBackOrAheadOut) {
   const RecordDefect defect = of(clean, DefectKind::backward_times).at(0);
   EXPECT_EQ(defect.count, 2);
   EXPECT_EQ(defect.first, 300);
-  EXPECT_EQ(invalid_count(clean.record->motor_rate), 2);
+  EXPECT_EQ(invalid_count(clean.record->motor_rate), 0);
   EXPECT_EQ(clean.record->motor_rate.values[2000], raw.tachometer.values[2000]);
 }
 
@@ -123,6 +124,48 @@ TEST(CleanRecord, MasksAGap) {
   EXPECT_EQ(invalid_count(clean.record->motor_rate), 40);
   EXPECT_FALSE(clean.record->inlet_pressure[0].is_valid(length - 1000 + 20));
   EXPECT_EQ(clean.record->motor_rate.values.tail(1000), raw.tachometer.values.tail(1000));
+}
+
+TEST(CleanRecord, FillsLostLinesAsMissingSamples) {
+  // The same samples missing as lines and as numbers.
+  const RawRecord whole = healthy();
+  RawRecord numbers = whole, lines = whole;
+  const auto is_lost = [](Index i) { return i % 20 == 7 || i % 300 == 8; };
+  std::vector<Index> kept;
+  for (Index i = 0; i < length; ++i) {
+    if (!is_lost(i)) kept.push_back(i);
+  }
+  const auto without = [&](Eigen::VectorXd& values) {
+    const Eigen::VectorXd all = values;
+    values = all(kept);
+  };
+  without(lines.time);
+  for (RawRecord* record : {&numbers, &lines}) {
+    std::vector<RawChannel*> channels{&record->tachometer, &*record->rate_command};
+    for (auto* side : {&record->inlet, &record->outlet}) {
+      for (RawChannel& channel : *side) channels.push_back(&channel);
+    }
+    for (RawChannel* channel : channels) {
+      if (record == &lines) {
+        without(channel->values);
+        continue;
+      }
+      for (Index i = 0; i < length; ++i) {
+        if (is_lost(i)) channel->values[i] = nan;
+      }
+    }
+  }
+  const CleanRecord by_numbers = clean_record(numbers), by_lines = clean_record(lines);
+  EXPECT_THAT(only(by_lines, DefectKind::gap).explanation, HasSubstr("filled"));
+  ASSERT_EQ(by_lines.record->samples(), by_numbers.record->samples());
+  EXPECT_EQ(invalid_count(by_lines.record->motor_rate), 0);
+  EXPECT_TRUE(by_lines.record->motor_rate.values.isApprox(by_numbers.record->motor_rate.values));
+  EXPECT_TRUE(by_lines.record->inlet_pressure[2].values.isApprox(
+      by_numbers.record->inlet_pressure[2].values));
+  // Lines of a slosh test ring too fast for it.
+  lines.test = TestKind::slosh;
+  EXPECT_EQ(invalid_count(clean_record(lines).record->inlet_pressure[0]),
+            length - static_cast<Index>(kept.size()));
 }
 
 TEST(CleanRecord, RefusesGapsLongerThanTheRecord) {

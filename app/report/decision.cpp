@@ -166,7 +166,7 @@ Sentences campaign_decision(const io::CampaignSection& section) {
     if (sentences.size() >= maximum) break;
     sentences.push_back(look_at(one, section.contradiction));
   }
-  if (const auto* const one = io::least_checked_number(section);
+  if (const auto* const one = io::weakest_check(section);
       one != nullptr && sentences.size() < maximum) {
     sentences.push_back(
         fmt::format("An error in the stated {} would show from {:.1f} % on, where it makes {:.1f} "

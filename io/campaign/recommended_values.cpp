@@ -240,7 +240,7 @@ std::optional<RecommendedValues> recommended(const CampaignSection& section) {
                            section.grey_box->quantity("motor to load ratio").posterior};
 }
 
-const StatedNumberCheck* least_checked_number(const CampaignSection& section) {
+const StatedNumberCheck* weakest_check(const CampaignSection& section) {
   if (rejection(section) != Rejection::none) return nullptr;
   const auto& checks = section.grey_box->stated_numbers;
   const auto least = std::ranges::max_element(checks, {}, [](const StatedNumberCheck& one) {

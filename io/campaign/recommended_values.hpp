@@ -31,7 +31,7 @@ std::optional<RecommendedValues> recommended(const CampaignSection& section);
 
 /// The stated number whose errors may change the inertia most before the records show them
 /// (StatedNumberCheck::visible_error times inertia_effect); nothing where no value is recommended.
-const identification::StatedNumberCheck* least_checked_number(const CampaignSection& section);
+const identification::StatedNumberCheck* weakest_check(const CampaignSection& section);
 
 /// What a redesign takes from the campaign instead of what the case states; nothing where no value
 /// is recommended, or where what is recommended leaves the antenna no inertia.

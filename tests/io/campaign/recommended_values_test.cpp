@@ -163,9 +163,9 @@ TEST(Suspicions, NameTheChannelWhoseScaleTheRecordsContradict) {
   EXPECT_THAT(suspicions(section)[0].stated_numbers, ElementsAre("tachometer scale"));
 }
 
-TEST(LeastCheckedNumber, IsTheOneWhoseErrorsChangeTheInertiaMostUnseen) {
+TEST(WeakestCheck, IsTheOneWhoseErrorsChangeTheInertiaMostUnseen) {
   CampaignSection section = fitted();
-  EXPECT_EQ(least_checked_number(section), nullptr);
+  EXPECT_EQ(weakest_check(section), nullptr);
   for (const auto& [name, visible, effect] : {std::tuple{"tachometer scale", 0.05, -0.8},
                                               {"antenna inertia", 0.4, 0.01},
                                               {"displacement", 0.03, 1.0}}) {
@@ -175,10 +175,10 @@ TEST(LeastCheckedNumber, IsTheOneWhoseErrorsChangeTheInertiaMostUnseen) {
     one.inertia_effect = effect;
     section.grey_box->stated_numbers.push_back(one);
   }
-  ASSERT_NE(least_checked_number(section), nullptr);
-  EXPECT_EQ(least_checked_number(section)->name, "tachometer scale");
+  ASSERT_NE(weakest_check(section), nullptr);
+  EXPECT_EQ(weakest_check(section)->name, "tachometer scale");
   section.grey_box->conflict.widening = 4.0;
-  EXPECT_EQ(least_checked_number(section), nullptr);
+  EXPECT_EQ(weakest_check(section), nullptr);
 }
 
 }  // namespace

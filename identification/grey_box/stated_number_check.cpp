@@ -106,14 +106,13 @@ std::vector<StatedNumberCheck> check_stated_numbers(const P& parameters,
 
 std::vector<StatedNumberCheck> departing_numbers(const std::vector<StatedNumberCheck>& checks,
                                                  double beyond, StatedNumbers which) {
-  constexpr double most_wrong = 10.0;
   const auto departure = [](const StatedNumberCheck& one) { return std::abs(one.departure); };
   std::vector<StatedNumberCheck> departing;
   std::ranges::copy_if(checks, std::back_inserter(departing), [&](const StatedNumberCheck& one) {
     return which == StatedNumbers::all || one.moves_inertia;
   });
   const auto is_tenfold = [](const StatedNumberCheck& one) {
-    return std::abs(std::log(one.by_others.value)) > std::log(most_wrong);
+    return std::abs(std::log(one.by_others.value)) > std::numbers::ln10;
   };
   if (std::ranges::any_of(departing, [&](const StatedNumberCheck& one) {
         return departure(one) >= beyond && !is_tenfold(one);

@@ -22,7 +22,8 @@ Index finite_count(const Eigen::VectorXd& values) {
 
 class Cleaner {
  public:
-  Cleaner(RawRecord raw, const DefectOptions& options) : raw_(std::move(raw)), options_(options) {
+  Cleaner(RawRecord raw, DefectOptions options)
+      : raw_(std::move(raw)), options_(std::move(options)) {
     // Lines ring as fast as a few samples.
     options_.fill_short_gaps = raw_.test != TestKind::slosh;
   }

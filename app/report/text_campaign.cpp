@@ -94,21 +94,21 @@ Document methods_part(const io::CampaignSection& section) {
 Document stated_numbers_part(const io::CampaignSection& section) {
   if (!section.grey_box || section.grey_box->stated_numbers.empty()) return {};
   Document text = heading("Stated numbers against the records and one another");
-  Rows rows{{"number", "1 sigma", "by all else", "95 % interval", "sigmas", "shown from",
-             "effect on J", "J without it"}};
+  Rows rows{{"number", "1 sigma", "by all else", "sigmas", "shown from", "effect", "J without it"}};
   for (const auto& one : section.grey_box->stated_numbers) {
     rows.push_back({one.name, fmt::format("{:.2g} %", 100.0 * one.stated_uncertainty),
-                    fmt::format("{:.3f}", one.by_others.value), range(one.by_others),
-                    fmt::format("{:+.1f}", one.departure),
+                    range(one.by_others), fmt::format("{:+.1f}", one.departure),
                     fmt::format("{:.1f} %", 100.0 * one.visible_error),
                     fmt::format("{:+.2f}", one.inertia_effect), range(one.inertia)});
   }
-  text += table(rows, "lrrrrrrr");
+  text += table(rows, "lrrrrrr");
   return text +
          wrapped(
-             "By all else: what the records and all other stated numbers give, 1 if the number is "
-             "right. Sigmas: its distance from 1 in standard uncertainties of both. Shown from: "
-             "smallest error of the number that makes 3.5 of them. Effect on J: per cent of "
+             "By all else: 95 % interval of what the records and all other stated numbers give, 1 "
+             "if "
+             "the number is right. Sigmas: its distance from 1 in standard uncertainties of both. "
+             "Shown from: "
+             "smallest error of the number that makes 3.5 of them. Effect: per cent of "
              "inertia per per cent of the number. One wrong number makes others depart that it "
              "stands against.",
              "  ");

@@ -105,12 +105,10 @@ Document stated_numbers_part(const io::CampaignSection& section) {
   return text +
          wrapped(
              "By all else: 95 % interval of what the records and all other stated numbers give, 1 "
-             "if "
-             "the number is right. Sigmas: its distance from 1 in standard uncertainties of both. "
-             "Shown from: "
-             "smallest error of the number that makes 3.5 of them. Effect: per cent of "
-             "inertia per per cent of the number. One wrong number makes others depart that it "
-             "stands against.",
+             "if the number is right. Sigmas: its distance from 1 in standard uncertainties of "
+             "both. Shown from: smallest error of the number that makes 3.5 of them. Effect: per "
+             "cent of inertia per per cent of the number. One wrong number makes others depart "
+             "that it stands against.",
              "  ");
 }
 
